@@ -53,8 +53,8 @@ enum parameter_kind {
     PARAMETER_MAP,
 };
 
-#define PARAMETER_REQUIRED ((const char *)0)
-#define PARAMETER_OPTIONAL ""
+#define REQUIRED ((const char *)0)
+#define OPTIONAL ""
 
 struct parameter {
     const char *key;
@@ -62,7 +62,7 @@ struct parameter {
     size_t offset;
     /* NUMBER, VECTOR(S), FIELD(S): the SI unit that fixes the dimension, "" or NULL for none */
     const char *unit;
-    const char *standard; /* default as typed, PARAMETER_REQUIRED or PARAMETER_OPTIONAL */
+    const char *standard; /* default as typed, REQUIRED or OPTIONAL */
     /* NUMBER, INTEGER, constant FIELD: allowed is above < value < below; both 0: anything */
     double above, below;
     bool closed;  /* the bounds themselves are allowed too */
@@ -77,6 +77,17 @@ struct parameter {
                                 * the table and freed with them; 0: none */
     unsigned arguments;        /* FIELD(S): what it may name, a sum of enum expression_arguments */
 };
+
+/* A row of a table: the key MEMBER of the struct T, the default, help, then what else the kind has,
+ * by name:
+ *   PARAMETER(NUMBER, struct blast_input, mass, OPTIONAL, "mass of the charge", .unit = "kg")
+ * PARAMETER_AS is for a KEY that is not the name of the member. */
+#define PARAMETER(of_kind, T, member, ...) PARAMETER_AS(#member, of_kind, T, member, __VA_ARGS__)
+#define PARAMETER_AS(name, of_kind, T, member, as_typed, ...)                    \
+    {                                                                            \
+        .key = name, .kind = PARAMETER_##of_kind, .offset = offsetof(T, member), \
+        .standard = as_typed, .help = __VA_ARGS__                                \
+    }
 
 /* The last entry of every table. */
 #define PARAMETER_END \

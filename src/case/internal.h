@@ -80,60 +80,30 @@ struct error *case_take_record(struct simulation_case *input, const char *path);
 /* The rows of what a check allows, in a table of TYPE whose struct check_input is MEMBER (with a
  * dot after it, or nothing). */
 #define CASE_LIMITS(type, member)                                                                  \
-    {.key = "is",                                                                                  \
-     .kind = PARAMETER_QUANTITY,                                                                   \
-     .offset = offsetof(type, member is),                                                          \
-     .standard = PARAMETER_OPTIONAL,                                                               \
-     .help = "the expected value"},                                                                \
-        {.key = "within",                                                                          \
-         .kind = PARAMETER_QUANTITY,                                                               \
-         .offset = offsetof(type, member within),                                                  \
-         .standard = PARAMETER_OPTIONAL,                                                           \
-         .help = "allowed distance from `is`: a fraction of it or a quantity like it"},            \
-        {.key = "at_most",                                                                         \
-         .kind = PARAMETER_QUANTITY,                                                               \
-         .offset = offsetof(type, member at_most),                                                 \
-         .standard = PARAMETER_OPTIONAL,                                                           \
-         .help = "largest value allowed"},                                                         \
-        {.key = "at_least",                                                                        \
-         .kind = PARAMETER_QUANTITY,                                                               \
-         .offset = offsetof(type, member at_least),                                                \
-         .standard = PARAMETER_OPTIONAL,                                                           \
-         .help = "smallest value allowed"},                                                        \
-        {.key = "source",                                                                          \
-         .kind = PARAMETER_TEXT,                                                                   \
-         .offset = offsetof(type, member source),                                                  \
-         .standard = PARAMETER_OPTIONAL,                                                           \
-         .help = "source of the expected value"},                                                  \
-        {.key = "known_deviation",                                                                 \
-         .kind = PARAMETER_TEXT,                                                                   \
-         .offset = offsetof(type, member known_deviation),                                         \
-         .standard = PARAMETER_OPTIONAL,                                                           \
-         .help = "why the check is expected to fail: it is listed separately and does not fail "   \
-                 "the run; "                                                                       \
-                 "if it passes, the run fails, so that the key gets removed"},                     \
-        {.key = "known_deviation_if",                                                              \
-         .kind = PARAMETER_NUMBER,                                                                 \
-         .offset = offsetof(type, member known_deviation_if),                                      \
-         .standard = "1",                                                                          \
-         .above = -INFINITY,                                                                       \
-         .below = INFINITY,                                                                        \
-         .help =                                                                                   \
-             "`known_deviation` applies only where this is above 0, as in some runs of a sweep"},  \
-        {.key = "recorded_value",                                                                  \
-         .kind = PARAMETER_QUANTITY,                                                               \
-         .offset = offsetof(type, member recorded),                                                \
-         .standard = PARAMETER_OPTIONAL,                                                           \
-         .help = "the earlier result that `regression_bound` compares with; default: that of the " \
-                 "record beside the case, which `bolide verify --record` makes"},                  \
-    {                                                                                              \
-        .key = "regression_bound", .kind = PARAMETER_QUANTITY,                                     \
-        .offset = offsetof(type, member regression_bound), .standard = PARAMETER_OPTIONAL,         \
-        .help = "by how much the error may exceed the recorded one, as a fraction of it or a "     \
-                "quantity; the error is the distance from `is` or from the exact solution. "       \
-                "Without either, by how much the value may change. It detects changes only, and "  \
-                "is counted separately"                                                            \
-    }
+    PARAMETER_AS("is", QUANTITY, type, member is, OPTIONAL, "the expected value"),                 \
+        PARAMETER_AS("within", QUANTITY, type, member within, OPTIONAL,                            \
+                     "allowed distance from `is`: a fraction of it or a quantity like it"),        \
+        PARAMETER_AS("at_most", QUANTITY, type, member at_most, OPTIONAL,                          \
+                     "largest value allowed"),                                                     \
+        PARAMETER_AS("at_least", QUANTITY, type, member at_least, OPTIONAL,                        \
+                     "smallest value allowed"),                                                    \
+        PARAMETER_AS("source", TEXT, type, member source, OPTIONAL,                                \
+                     "source of the expected value"),                                              \
+        PARAMETER_AS("known_deviation", TEXT, type, member known_deviation, OPTIONAL,              \
+                     "why the check is expected to fail: it is listed separately and does not "    \
+                     "fail the run; if it passes, the run fails, so that the key gets removed"),   \
+        PARAMETER_AS(                                                                              \
+            "known_deviation_if", NUMBER, type, member known_deviation_if, "1",                    \
+            "`known_deviation` applies only where this is above 0, as in some runs of a sweep",    \
+            .above = -INFINITY, .below = INFINITY),                                                \
+        PARAMETER_AS("recorded_value", QUANTITY, type, member recorded, OPTIONAL,                  \
+                     "the earlier result that `regression_bound` compares with; default: that of " \
+                     "the record beside the case, which `bolide verify --record` makes"),          \
+        PARAMETER_AS("regression_bound", QUANTITY, type, member regression_bound, OPTIONAL,        \
+                     "by how much the error may exceed the recorded one, as a fraction of it or "  \
+                     "a quantity; the error is the distance from `is` or from the exact "          \
+                     "solution. Without either, by how much the value may change. It detects "     \
+                     "changes only, and is counted separately")
 
 /* Reads the case that `start` names, if any, from the folder of the case at PATH. */
 struct error *case_read_start(struct simulation_case *input, const char *path,

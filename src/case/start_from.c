@@ -10,30 +10,16 @@
 #include "document/nodes.h"
 
 const struct parameter case_start_table[] = {
-    {.key = "from",
-     .kind = PARAMETER_TEXT,
-     .offset = offsetof(struct start_input, from),
-     .standard = PARAMETER_OPTIONAL,
-     .help = "a case of one dimension, spherical or cylindrical, or the folder of one, from this "
-             "file's folder; it is computed before this run begins"},
-    {.key = "at",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct start_input, at),
-     .unit = "s",
-     .standard = PARAMETER_OPTIONAL,
-     .below = INFINITY,
-     .help = "time up to which that case is computed; default: its end"},
-    {.key = "center",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct start_input, center),
-     .unit = "m",
-     .standard = PARAMETER_OPTIONAL,
-     .help = "where its centre lies here; default: the origin"},
-    {.key = "material",
-     .kind = PARAMETER_TEXT,
-     .offset = offsetof(struct start_input, material),
-     .standard = PARAMETER_OPTIONAL,
-     .help = "the material of this case that its products are; needed where it has two materials"},
+    PARAMETER(TEXT, struct start_input, from, OPTIONAL,
+              "a case of one dimension, spherical or cylindrical, or the folder of one, from this "
+              "file's folder; it is computed before this run begins"),
+    PARAMETER(NUMBER, struct start_input, at, OPTIONAL,
+              "time up to which that case is computed; default: its end", .unit = "s",
+              .below = INFINITY),
+    PARAMETER(VECTOR, struct start_input, center, OPTIONAL,
+              "where its centre lies here; default: the origin", .unit = "m"),
+    PARAMETER(TEXT, struct start_input, material, OPTIONAL,
+              "the material of this case that its products are; needed where it has two materials"),
     PARAMETER_END,
 };
 

@@ -13,42 +13,25 @@ static const char *const stage_names[] = {
 static const char *const map_names[] = {"conservative", "consistent", "text", NULL};
 
 const struct parameter afdmp_table[] = {
-    {.key = "region",
-     .kind = PARAMETER_TABLE,
-     .offset = offsetof(struct afdmp_parameters, region),
-     .standard = PARAMETER_OPTIONAL,
-     .table = region_table,
-     .help = "the box of the solids, which is at rest until a wave comes; default: 10 cells around "
-             "all of them"},
-    {.key = "map",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct afdmp_parameters, map),
-     .standard = "conservative",
-     .names = map_names,
-     .help = "what cells get of the particles of the detonation; consistent: mass, momentum and "
-             "internal energy of each material through the nodes, so that kinetic energy is lost; "
-             "conservative: cells get that as heat; text: as printed in the source, internal "
-             "energy of the particles within each cell"},
-    {.key = "wake",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct afdmp_parameters, wake),
-     .standard = "1.1",
-     .above = 1.0,
-     .below = INFINITY,
-     .help = "the last stage begins when the pressure of the gas beside the region has changed by "
-             "this factor"},
-    {.key = "mpm",
-     .kind = PARAMETER_TABLE,
-     .offset = offsetof(struct afdmp_parameters, mpm),
-     .standard = PARAMETER_OPTIONAL,
-     .table = mpm_table,
-     .help = "options of the material points; the gas has cells of the same edge"},
-    {.key = "gas",
-     .kind = PARAMETER_TABLE,
-     .offset = offsetof(struct afdmp_parameters, gas),
-     .standard = PARAMETER_OPTIONAL,
-     .table = gas_table,
-     .help = "options of the gas"},
+    PARAMETER(TABLE, struct afdmp_parameters, region, OPTIONAL,
+              "the box of the solids, which is at rest until a wave comes; default: 10 cells "
+              "around all of them",
+              .table = region_table),
+    PARAMETER(CHOICE, struct afdmp_parameters, map, "conservative",
+              "what cells get of the particles of the detonation; consistent: mass, momentum and "
+              "internal energy of each material through the nodes, so that kinetic energy is lost; "
+              "conservative: cells get that as heat; text: as printed in the source, internal "
+              "energy of the particles within each cell",
+              .names = map_names),
+    PARAMETER(NUMBER, struct afdmp_parameters, wake, "1.1",
+              "the last stage begins when the pressure of the gas beside the region has changed by "
+              "this factor",
+              .above = 1.0, .below = INFINITY),
+    PARAMETER(TABLE, struct afdmp_parameters, mpm, OPTIONAL,
+              "options of the material points; the gas has cells of the same edge",
+              .table = mpm_table),
+    PARAMETER(TABLE, struct afdmp_parameters, gas, OPTIONAL, "options of the gas",
+              .table = gas_table),
     PARAMETER_END,
 };
 

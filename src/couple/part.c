@@ -211,18 +211,8 @@ int32_t part_cell(const struct cell_blocks *cells, const int64_t at[3], int32_t 
 }
 
 const struct parameter region_table[] = {
-    {.key = "low",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct couple_region, low),
-     .unit = "m",
-     .standard = PARAMETER_OPTIONAL,
-     .help = "its lowest corner"},
-    {.key = "high",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct couple_region, high),
-     .unit = "m",
-     .standard = PARAMETER_OPTIONAL,
-     .help = "its highest corner"},
+    PARAMETER(VECTOR, struct couple_region, low, OPTIONAL, "its lowest corner", .unit = "m"),
+    PARAMETER(VECTOR, struct couple_region, high, OPTIONAL, "its highest corner", .unit = "m"),
     PARAMETER_END,
 };
 

@@ -49,20 +49,17 @@ enum { COARSEST = 512 };
 
 const struct parameter exact_elastic_plastic_impact_table[] = {
     {"left", PARAMETER_TABLE, offsetof(struct exact_elastic_plastic_impact, solid[SIDE_LEFT]),
-     .standard = PARAMETER_REQUIRED, .help = "the body on the left", .table = exact_solid_table},
+     .standard = REQUIRED, .help = "the body on the left", .table = exact_solid_table},
     {"right", PARAMETER_TABLE, offsetof(struct exact_elastic_plastic_impact, solid[SIDE_RIGHT]),
-     .standard = PARAMETER_REQUIRED, .help = "the body on the right", .table = exact_solid_table},
+     .standard = REQUIRED, .help = "the body on the right", .table = exact_solid_table},
     {"at", PARAMETER_NUMBER, offsetof(struct exact_elastic_plastic_impact, at), "m", "0 mm",
      .help = "position of the contact at the start"},
     {"left_end", PARAMETER_NUMBER, offsetof(struct exact_elastic_plastic_impact, rear[SIDE_LEFT]),
-     "m", PARAMETER_OPTIONAL,
-     .help = "position of the free rear surface of the left body; default: none"},
+     "m", OPTIONAL, .help = "position of the free rear surface of the left body; default: none"},
     {"right_end", PARAMETER_NUMBER, offsetof(struct exact_elastic_plastic_impact, rear[SIDE_RIGHT]),
-     "m", PARAMETER_OPTIONAL,
-     .help = "position of the free rear surface of the right body; default: none"},
-    {"until", PARAMETER_NUMBER, offsetof(struct exact_elastic_plastic_impact, until), "s",
-     PARAMETER_REQUIRED, .above = 0.0, .below = INFINITY,
-     .help = "time up to which the waves are followed"},
+     "m", OPTIONAL, .help = "position of the free rear surface of the right body; default: none"},
+    {"until", PARAMETER_NUMBER, offsetof(struct exact_elastic_plastic_impact, until), "s", REQUIRED,
+     .above = 0.0, .below = INFINITY, .help = "time up to which the waves are followed"},
     PARAMETER_END,
 };
 

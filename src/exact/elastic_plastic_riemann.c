@@ -14,11 +14,9 @@ struct solid_problem {
 
 const struct parameter exact_elastic_plastic_riemann_table[] = {
     {"left", PARAMETER_TABLE, offsetof(struct exact_elastic_plastic_riemann, solid[SIDE_LEFT]),
-     .standard = PARAMETER_REQUIRED, .help = "the solid left of the contact",
-     .table = exact_solid_table},
+     .standard = REQUIRED, .help = "the solid left of the contact", .table = exact_solid_table},
     {"right", PARAMETER_TABLE, offsetof(struct exact_elastic_plastic_riemann, solid[SIDE_RIGHT]),
-     .standard = PARAMETER_REQUIRED, .help = "the solid right of the contact",
-     .table = exact_solid_table},
+     .standard = REQUIRED, .help = "the solid right of the contact", .table = exact_solid_table},
     {"at", PARAMETER_NUMBER, offsetof(struct exact_elastic_plastic_riemann, at), "m", "0 mm",
      .help = "position of the contact at the start"},
     PARAMETER_END,

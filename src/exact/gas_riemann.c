@@ -16,22 +16,22 @@ struct gas_problem {
 };
 
 static const struct parameter gas_table[] = {
-    {"density", PARAMETER_NUMBER, offsetof(struct exact_gas, density), "kg/m^3", PARAMETER_REQUIRED,
+    {"density", PARAMETER_NUMBER, offsetof(struct exact_gas, density), "kg/m^3", REQUIRED,
      .above = 0.0, .below = INFINITY, .help = "density at the start"},
     {"velocity", PARAMETER_NUMBER, offsetof(struct exact_gas, velocity), "m/s", "0 m/s",
      .help = "velocity at the start, positive to the right"},
-    {"pressure", PARAMETER_NUMBER, offsetof(struct exact_gas, pressure), "Pa", PARAMETER_REQUIRED,
+    {"pressure", PARAMETER_NUMBER, offsetof(struct exact_gas, pressure), "Pa", REQUIRED,
      .above = 0.0, .below = INFINITY, .help = "pressure at the start"},
-    {"gamma", PARAMETER_NUMBER, offsetof(struct exact_gas, gamma), "", PARAMETER_REQUIRED,
-     .above = 1.0, .below = INFINITY, .help = "ratio of specific heats"},
+    {"gamma", PARAMETER_NUMBER, offsetof(struct exact_gas, gamma), "", REQUIRED, .above = 1.0,
+     .below = INFINITY, .help = "ratio of specific heats"},
     PARAMETER_END,
 };
 
 const struct parameter exact_gas_riemann_table[] = {
     {"left", PARAMETER_TABLE, offsetof(struct exact_gas_riemann, gas[SIDE_LEFT]),
-     .standard = PARAMETER_REQUIRED, .help = "the gas left of the contact", .table = gas_table},
+     .standard = REQUIRED, .help = "the gas left of the contact", .table = gas_table},
     {"right", PARAMETER_TABLE, offsetof(struct exact_gas_riemann, gas[SIDE_RIGHT]),
-     .standard = PARAMETER_REQUIRED, .help = "the gas right of the contact", .table = gas_table},
+     .standard = REQUIRED, .help = "the gas right of the contact", .table = gas_table},
     {"at", PARAMETER_NUMBER, offsetof(struct exact_gas_riemann, at), "m", "0 mm",
      .help = "position of the contact at the start"},
     PARAMETER_END,

@@ -16,18 +16,17 @@ struct impact_problem {
 };
 
 static const struct parameter material_table[] = {
-    {"material", PARAMETER_TEXT, offsetof(struct exact_shock_material, name),
-     .standard = PARAMETER_OPTIONAL,
+    {"material", PARAMETER_TEXT, offsetof(struct exact_shock_material, name), .standard = OPTIONAL,
      .help = "a material with `eos: mie-grueneisen`, of the case or, in `bolide exact`, of the "
              "library; gives density, sound and slope"},
     {"density", PARAMETER_NUMBER, offsetof(struct exact_shock_material, density), "kg/m^3",
-     PARAMETER_OPTIONAL, .above = 0.0, .below = INFINITY,
+     OPTIONAL, .above = 0.0, .below = INFINITY,
      .help = "density at the start, at zero pressure; default: that of the material"},
-    {"sound", PARAMETER_NUMBER, offsetof(struct exact_shock_material, sound), "m/s",
-     PARAMETER_OPTIONAL, .above = 0.0, .below = INFINITY,
+    {"sound", PARAMETER_NUMBER, offsetof(struct exact_shock_material, sound), "m/s", OPTIONAL,
+     .above = 0.0, .below = INFINITY,
      .help = "C of the shock relation U_s = C + S U_p; default: that of the material"},
-    {"slope", PARAMETER_NUMBER, offsetof(struct exact_shock_material, slope), "",
-     PARAMETER_OPTIONAL, .above = 0.0, .below = INFINITY, .closed = true,
+    {"slope", PARAMETER_NUMBER, offsetof(struct exact_shock_material, slope), "", OPTIONAL,
+     .above = 0.0, .below = INFINITY, .closed = true,
      .help = "S of the shock relation U_s = C + S U_p; default: that of the material"},
     {"velocity", PARAMETER_NUMBER, offsetof(struct exact_shock_material, velocity), "m/s", "0 m/s",
      .help = "velocity at the start, positive to the right"},
@@ -36,11 +35,9 @@ static const struct parameter material_table[] = {
 
 const struct parameter exact_impedance_match_table[] = {
     {"left", PARAMETER_TABLE, offsetof(struct exact_impedance_match, material[SIDE_LEFT]),
-     .standard = PARAMETER_REQUIRED, .help = "the material left of the contact",
-     .table = material_table},
+     .standard = REQUIRED, .help = "the material left of the contact", .table = material_table},
     {"right", PARAMETER_TABLE, offsetof(struct exact_impedance_match, material[SIDE_RIGHT]),
-     .standard = PARAMETER_REQUIRED, .help = "the material right of the contact",
-     .table = material_table},
+     .standard = REQUIRED, .help = "the material right of the contact", .table = material_table},
     {"at", PARAMETER_NUMBER, offsetof(struct exact_impedance_match, at), "m", "0 mm",
      .help = "position of the contact at the start"},
     PARAMETER_END,

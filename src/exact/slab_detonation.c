@@ -25,12 +25,8 @@ struct detonation {
 };
 
 const struct parameter exact_slab_detonation_table[] = {
-    {.key = "jwl",
-     .kind = PARAMETER_TABLE,
-     .offset = offsetof(struct exact_slab_detonation, jwl),
-     .standard = PARAMETER_REQUIRED,
-     .table = eos_jwl_parameters,
-     .help = "the products"},
+    PARAMETER(TABLE, struct exact_slab_detonation, jwl, REQUIRED, "the products",
+              .table = eos_jwl_parameters),
     PARAMETER_END,
 };
 

@@ -47,27 +47,27 @@ struct heat_problem {
 
 #define BODY(member) offsetof(struct exact_heat_body, member)
 static const struct parameter body_table[] = {
-    {"density", PARAMETER_NUMBER, BODY(density), "kg/m^3", PARAMETER_REQUIRED, .above = 0.0,
+    {"density", PARAMETER_NUMBER, BODY(density), "kg/m^3", REQUIRED, .above = 0.0,
      .below = INFINITY, .help = "density"},
-    {"capacity", PARAMETER_NUMBER, BODY(capacity), "J/(kg*K)", PARAMETER_REQUIRED, .above = 0.0,
+    {"capacity", PARAMETER_NUMBER, BODY(capacity), "J/(kg*K)", REQUIRED, .above = 0.0,
      .below = INFINITY, .help = "specific heat at constant volume"},
-    {"conductivity", PARAMETER_NUMBER, BODY(conductivity), "W/(m*K)", PARAMETER_REQUIRED,
-     .above = 0.0, .below = INFINITY, .help = "thermal conductivity"},
-    {"temperature", PARAMETER_NUMBER, BODY(temperature), "K", PARAMETER_REQUIRED, .above = 0.0,
+    {"conductivity", PARAMETER_NUMBER, BODY(conductivity), "W/(m*K)", REQUIRED, .above = 0.0,
+     .below = INFINITY, .help = "thermal conductivity"},
+    {"temperature", PARAMETER_NUMBER, BODY(temperature), "K", REQUIRED, .above = 0.0,
      .below = INFINITY, .closed = true, .help = "temperature at the start"},
     PARAMETER_END,
 };
 
 #define JUMP(member) offsetof(struct exact_temperature_jump, member)
 const struct parameter exact_temperature_jump_table[] = {
-    {"left", PARAMETER_TABLE, JUMP(body[SIDE_LEFT]), .standard = PARAMETER_REQUIRED,
+    {"left", PARAMETER_TABLE, JUMP(body[SIDE_LEFT]), .standard = REQUIRED,
      .help = "the body left of the contact", .table = body_table},
-    {"right", PARAMETER_TABLE, JUMP(body[SIDE_RIGHT]), .standard = PARAMETER_REQUIRED,
+    {"right", PARAMETER_TABLE, JUMP(body[SIDE_RIGHT]), .standard = REQUIRED,
      .help = "the body right of the contact", .table = body_table},
     {"at", PARAMETER_NUMBER, JUMP(at), "m", "0 mm", .help = "position of the contact"},
-    {"from", PARAMETER_NUMBER, JUMP(from), "m", PARAMETER_OPTIONAL,
+    {"from", PARAMETER_NUMBER, JUMP(from), "m", OPTIONAL,
      .help = "insulated left end, together with `to`; default: an infinite rod"},
-    {"to", PARAMETER_NUMBER, JUMP(to), "m", PARAMETER_OPTIONAL, .help = "insulated right end"},
+    {"to", PARAMETER_NUMBER, JUMP(to), "m", OPTIONAL, .help = "insulated right end"},
     PARAMETER_END,
 };
 

@@ -22,32 +22,17 @@ struct znd {
 };
 
 const struct parameter exact_znd_table[] = {
-    {.key = "material",
-     .kind = PARAMETER_TEXT,
-     .offset = offsetof(struct exact_znd, material),
-     .standard = PARAMETER_REQUIRED,
-     .help = "an explosive that burns at a rate: a material of the case; in `bolide exact`, of the "
-             "library"},
-    {.key = "density",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct exact_znd, density),
-     .unit = "kg/m^3",
-     .standard = PARAMETER_OPTIONAL,
-     .below = INFINITY,
-     .help = "density ahead of the front, less than that of the solid in a porous explosive; "
-             "default: that of the solid"},
-    {.key = "at",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct exact_znd, at),
-     .unit = "m",
-     .standard = "0 mm",
-     .help = "position of the front at the start"},
-    {.key = "velocity",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct exact_znd, velocity),
-     .unit = "m/s",
-     .standard = "0 m/s",
-     .help = "velocity of the explosive ahead of the front"},
+    PARAMETER(TEXT, struct exact_znd, material, REQUIRED,
+              "an explosive that burns at a rate: a material of the case; in `bolide exact`, of "
+              "the library"),
+    PARAMETER(NUMBER, struct exact_znd, density, OPTIONAL,
+              "density ahead of the front, less than that of the solid in a porous explosive; "
+              "default: that of the solid",
+              .unit = "kg/m^3", .below = INFINITY),
+    PARAMETER(NUMBER, struct exact_znd, at, "0 mm", "position of the front at the start",
+              .unit = "m"),
+    PARAMETER(NUMBER, struct exact_znd, velocity, "0 m/s",
+              "velocity of the explosive ahead of the front", .unit = "m/s"),
     PARAMETER_END,
 };
 

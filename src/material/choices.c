@@ -11,9 +11,6 @@
  * parameter.h and choices.h. */
 #include "material/choices.h"
 
-#define REQUIRED PARAMETER_REQUIRED
-#define OPTIONAL PARAMETER_OPTIONAL
-
 #define ANY .above = 0.0, .below = 0.0
 #define POSITIVE .above = 0.0, .below = INFINITY
 #define NOT_NEGATIVE .above = 0.0, .below = INFINITY, .closed = true
@@ -22,33 +19,12 @@
 #define FROM_ZERO_TO_ONE .above = 0.0, .below = 1.0, .closed = true
 
 #define NUMBER(T, member, of, as_typed, range, text) \
-    {.key = #member,                                 \
-     .kind = PARAMETER_NUMBER,                       \
-     .offset = offsetof(T, member),                  \
-     .unit = of,                                     \
-     .standard = as_typed,                           \
-     range,                                          \
-     .help = text},
-#define CHOICE(T, member, as_typed, text, ...)       \
-    {.key = #member,                                 \
-     .kind = PARAMETER_CHOICE,                       \
-     .offset = offsetof(T, member),                  \
-     .standard = as_typed,                           \
-     .names = (const char *const[]){__VA_ARGS__, 0}, \
-     .help = text},
+    PARAMETER(NUMBER, T, member, as_typed, text, .unit = of, range),
+#define CHOICE(T, member, as_typed, text, ...) \
+    PARAMETER(CHOICE, T, member, as_typed, text, .names = (const char *const[]){__VA_ARGS__, 0}),
 #define COUNT(T, member, as_typed, text) \
-    {.key = #member,                     \
-     .kind = PARAMETER_INTEGER,          \
-     .offset = offsetof(T, member),      \
-     .standard = as_typed,               \
-     NOT_NEGATIVE,                       \
-     .help = text},
-#define FLAG(T, member, as_typed, text) \
-    {.key = #member,                    \
-     .kind = PARAMETER_FLAG,            \
-     .offset = offsetof(T, member),     \
-     .standard = as_typed,              \
-     .help = text},
+    PARAMETER(INTEGER, T, member, as_typed, text, NOT_NEGATIVE),
+#define FLAG(T, member, as_typed, text) PARAMETER(FLAG, T, member, as_typed, text),
 
 #define EOS_TABLE(name)                                                                            \
     const struct parameter eos_##name##_parameters[] = {EOS_##name##_PARAMETERS(struct eos_##name) \

@@ -6,18 +6,10 @@ static const char *const axis_names[] = {"x", "y", "z", NULL};
 static const char *const side_names[] = {"low", "high", NULL};
 
 const struct parameter measure_bulge_table[] = {
-    {.key = "along",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct measure_bulge, along),
-     .standard = PARAMETER_REQUIRED,
-     .names = axis_names,
-     .help = "the axis normal to the face"},
-    {.key = "side",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct measure_bulge, side),
-     .standard = PARAMETER_REQUIRED,
-     .names = side_names,
-     .help = "the end of the axis at which the rear face is: low or high"},
+    PARAMETER(CHOICE, struct measure_bulge, along, REQUIRED, "the axis normal to the face",
+              .names = axis_names),
+    PARAMETER(CHOICE, struct measure_bulge, side, REQUIRED,
+              "the end of the axis at which the rear face is: low or high", .names = side_names),
     CONNECTED_LINK(offsetof(struct measure_bulge, link)),
     PARAMETER_END,
 };

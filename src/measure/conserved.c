@@ -5,12 +5,8 @@
 static const char *const total_names[] = {"mass", "momentum", "angular_momentum", "energy", NULL};
 
 const struct parameter measure_conserved_table[] = {
-    {.key = "total",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct measure_conserved, total),
-     .standard = PARAMETER_REQUIRED,
-     .names = total_names,
-     .help = "mass, momentum, angular_momentum or energy"},
+    PARAMETER(CHOICE, struct measure_conserved, total, REQUIRED,
+              "mass, momentum, angular_momentum or energy", .names = total_names),
     PARAMETER_END,
 };
 

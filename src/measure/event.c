@@ -5,11 +5,8 @@
 #include "measure/measure.h"
 
 const struct parameter measure_event_table[] = {
-    {.key = "name",
-     .kind = PARAMETER_TEXT,
-     .offset = offsetof(struct measure_event, name),
-     .standard = PARAMETER_REQUIRED,
-     .help = "name of the event, as the log of the run has it: propagation"},
+    PARAMETER(TEXT, struct measure_event, name, REQUIRED,
+              "name of the event, as the log of the run has it: propagation"),
     PARAMETER_END,
 };
 

@@ -9,17 +9,12 @@ enum { EXTENT_RADIUS = 3 };
 static const char *const along_names[] = {"x", "y", "z", "radius", NULL};
 
 const struct parameter measure_extent_table[] = {
-    {.key = "along",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct measure_extent, along),
-     .standard = PARAMETER_REQUIRED,
-     .names = along_names,
-     .help = "the axis of the width; radius: the largest distance from the centre of mass"},
-    {.key = "edges",
-     .kind = PARAMETER_FLAG,
-     .offset = offsetof(struct measure_extent, edges),
-     .standard = "no",
-     .help = "whether to measure to the edges of particles, half a diameter outside their centres"},
+    PARAMETER(CHOICE, struct measure_extent, along, REQUIRED,
+              "the axis of the width; radius: the largest distance from the centre of mass",
+              .names = along_names),
+    PARAMETER(
+        FLAG, struct measure_extent, edges, "no",
+        "whether to measure to the edges of particles, half a diameter outside their centres"),
     PARAMETER_END,
 };
 

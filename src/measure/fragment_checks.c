@@ -7,34 +7,24 @@ enum { TAKE_MASS, TAKE_SIZE, TAKE_PARTICLES, TAKE_SPEED, TAKE_VELOCITY };
 static const char *const axis_names[] = {"x", "y", "z", NULL};
 
 const struct parameter measure_fragments_table[] = {
-    {.key = "above",
-     .kind = PARAMETER_QUANTITY,
-     .offset = offsetof(struct measure_fragments, above),
-     .standard = PARAMETER_OPTIONAL,
-     .help = "smallest mass of a fragment that counts; default: any"},
+    PARAMETER(QUANTITY, struct measure_fragments, above, OPTIONAL,
+              "smallest mass of a fragment that counts; default: any"),
     CONNECTED_LINK(offsetof(struct measure_fragments, link)),
     PARAMETER_END,
 };
 
 const struct parameter measure_largest_fragment_table[] = {
-    {.key = "take",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct measure_largest_fragment, take),
-     .standard = "mass",
-     .names = take_names,
-     .help =
-         "what of it; size: the diameter of the sphere of its volume, in a plane of the circle"},
+    PARAMETER(
+        CHOICE, struct measure_largest_fragment, take, "mass",
+        "what of it; size: the diameter of the sphere of its volume, in a plane of the circle",
+        .names = take_names),
     CONNECTED_LINK(offsetof(struct measure_largest_fragment, link)),
     PARAMETER_END,
 };
 
 const struct parameter measure_length_table[] = {
-    {.key = "along",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct measure_length, along),
-     .standard = PARAMETER_REQUIRED,
-     .names = axis_names,
-     .help = "the axis of the length"},
+    PARAMETER(CHOICE, struct measure_length, along, REQUIRED, "the axis of the length",
+              .names = axis_names),
     CONNECTED_LINK(offsetof(struct measure_length, link)),
     PARAMETER_END,
 };

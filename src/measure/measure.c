@@ -11,11 +11,8 @@
 #define FIELD measure_field_table, sizeof(struct measure_field)
 
 const struct parameter measure_field_table[] = {
-    {.key = "field",
-     .kind = PARAMETER_TEXT,
-     .offset = offsetof(struct measure_field, field),
-     .standard = PARAMETER_REQUIRED,
-     .help = "a field of the particles, or one component of it: pressure, velocity.x, stress.xx"},
+    PARAMETER(TEXT, struct measure_field, field, REQUIRED,
+              "a field of the particles, or one component of it: pressure, velocity.x, stress.xx"),
     PARAMETER_END,
 };
 

@@ -10,12 +10,9 @@
 #include "model/particles/population.h"
 
 const struct parameter measure_pieces_table[] = {
-    {.key = "link",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct measure_pieces, link),
-     .standard = "0.8",
-     .below = INFINITY,
-     .help = "distance up to which two particles are connected, over the sum of their diameters"},
+    PARAMETER(NUMBER, struct measure_pieces, link, "0.8",
+              "distance up to which two particles are connected, over the sum of their diameters",
+              .below = INFINITY),
     PARAMETER_END,
 };
 

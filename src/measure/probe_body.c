@@ -8,11 +8,7 @@
 #include "measure/spin.h"
 
 const struct parameter probe_body_table[] = {
-    {.key = "name",
-     .kind = PARAMETER_TEXT,
-     .offset = offsetof(struct probe_body, name),
-     .standard = PARAMETER_REQUIRED,
-     .help = "name of the body"},
+    PARAMETER(TEXT, struct probe_body, name, REQUIRED, "name of the body"),
     PARAMETER_END,
 };
 

@@ -9,19 +9,10 @@
 #include "shape/shape.h"
 
 const struct parameter probe_gauge_table[] = {
-    {.key = "at",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct probe_gauge, at),
-     .unit = "m",
-     .standard = PARAMETER_REQUIRED,
-     .help = "its position"},
-    {.key = "radius",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct probe_gauge, radius),
-     .unit = "m",
-     .standard = PARAMETER_OPTIONAL,
-     .below = INFINITY,
-     .help = "radius within which particles count; default: the resolution of the case"},
+    PARAMETER(VECTOR, struct probe_gauge, at, REQUIRED, "its position", .unit = "m"),
+    PARAMETER(NUMBER, struct probe_gauge, radius, OPTIONAL,
+              "radius within which particles count; default: the resolution of the case",
+              .unit = "m", .below = INFINITY),
     PARAMETER_END,
 };
 

@@ -6,13 +6,10 @@
 #include "model/generate.h"
 
 const struct parameter probe_tracer_table[] = {
-    {.key = "at",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct probe_tracer, at),
-     .unit = "m",
-     .standard = PARAMETER_REQUIRED,
-     .help = "position at the start, whose nearest particle is followed, of equally near ones the "
-             "first created; at most one resolution outside the body"},
+    PARAMETER(VECTOR, struct probe_tracer, at, REQUIRED,
+              "position at the start, whose nearest particle is followed, of equally near ones the "
+              "first created; at most one resolution outside the body",
+              .unit = "m"),
     PARAMETER_END,
 };
 

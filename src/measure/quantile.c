@@ -5,18 +5,12 @@
 #include "measure/measure.h"
 
 const struct parameter measure_quantile_table[] = {
-    {.key = "field",
-     .kind = PARAMETER_TEXT,
-     .offset = offsetof(struct measure_quantile, of.field),
-     .standard = PARAMETER_REQUIRED,
-     .help = "a field of the particles, or one component of it: pressure, velocity.x, stress.xx"},
-    {.key = "fraction",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct measure_quantile, fraction),
-     .standard = PARAMETER_REQUIRED,
-     .below = 1.0,
-     .closed = true,
-     .help = "the fraction of the particles whose values are at most the result; 0.5: the median"},
+    PARAMETER_AS(
+        "field", TEXT, struct measure_quantile, of.field, REQUIRED,
+        "a field of the particles, or one component of it: pressure, velocity.x, stress.xx"),
+    PARAMETER(NUMBER, struct measure_quantile, fraction, REQUIRED,
+              "the fraction of the particles whose values are at most the result; 0.5: the median",
+              .below = 1.0, .closed = true),
     PARAMETER_END,
 };
 

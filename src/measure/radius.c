@@ -12,34 +12,19 @@ enum { TAKE_MEAN, TAKE_SPREAD };
 static const char *const take_names[] = {"mean", "spread", NULL};
 
 const struct parameter measure_radius_table[] = {
-    {.key = "start",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct measure_radius, start),
-     .unit = "m",
-     .standard = PARAMETER_REQUIRED,
-     .below = INFINITY,
-     .help = "its radius at the start, for example that of a surface"},
-    {.key = "take",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct measure_radius, take),
-     .standard = "mean",
-     .names = take_names,
-     .help = "mean of the particles' estimates, or their standard deviation, which measures the "
-             "roundness"},
-    {.key = "layer",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct measure_radius, layer),
-     .unit = "m",
-     .standard = PARAMETER_OPTIONAL,
-     .below = INFINITY,
-     .help = "distance from it at the start within which particles count; default: the resolution "
-             "of the case"},
-    {.key = "center",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct measure_radius, center),
-     .unit = "m",
-     .standard = PARAMETER_OPTIONAL,
-     .help = "its centre; default: the origin"},
+    PARAMETER(NUMBER, struct measure_radius, start, REQUIRED,
+              "its radius at the start, for example that of a surface", .unit = "m",
+              .below = INFINITY),
+    PARAMETER(CHOICE, struct measure_radius, take, "mean",
+              "mean of the particles' estimates, or their standard deviation, which measures the "
+              "roundness",
+              .names = take_names),
+    PARAMETER(NUMBER, struct measure_radius, layer, OPTIONAL,
+              "distance from it at the start within which particles count; default: the resolution "
+              "of the case",
+              .unit = "m", .below = INFINITY),
+    PARAMETER(VECTOR, struct measure_radius, center, OPTIONAL, "its centre; default: the origin",
+              .unit = "m"),
     PARAMETER_END,
 };
 

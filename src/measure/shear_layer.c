@@ -14,26 +14,14 @@ enum layer_value { LAYER_VISCOSITY, LAYER_DISPLACEMENT, LAYER_VELOCITY };
 static const char *const value_names[] = {"viscosity", "displacement", "velocity", NULL};
 
 const struct parameter measure_shear_layer_table[] = {
-    {.key = "value",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct measure_shear_layer, value),
-     .standard = "viscosity",
-     .names = value_names,
-     .help = "the viscosity, or the root mean square residual of the rows' displacements or "
-             "velocities in the fit"},
-    {.key = "speed",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct measure_shear_layer, speed),
-     .unit = "m/s",
-     .standard = PARAMETER_REQUIRED,
-     .below = INFINITY,
-     .help = "speed of each stream at the start, along x"},
-    {.key = "plane",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct measure_shear_layer, plane),
-     .unit = "m",
-     .standard = "0 m",
-     .help = "position of their interface on y"},
+    PARAMETER(CHOICE, struct measure_shear_layer, value, "viscosity",
+              "the viscosity, or the root mean square residual of the rows' displacements or "
+              "velocities in the fit",
+              .names = value_names),
+    PARAMETER(NUMBER, struct measure_shear_layer, speed, REQUIRED,
+              "speed of each stream at the start, along x", .unit = "m/s", .below = INFINITY),
+    PARAMETER(NUMBER, struct measure_shear_layer, plane, "0 m", "position of their interface on y",
+              .unit = "m"),
     PARAMETER_END,
 };
 

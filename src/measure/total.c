@@ -21,13 +21,10 @@ static const char *const quantity_names[] = {"mass",
                                              NULL};
 
 const struct parameter measure_total_table[] = {
-    {.key = "quantity",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct measure_total, quantity),
-     .standard = PARAMETER_REQUIRED,
-     .names = quantity_names,
-     .help = "the quantity that is summed; angular momentum is about the origin, volume is mass "
-             "over density"},
+    PARAMETER(CHOICE, struct measure_total, quantity, REQUIRED,
+              "the quantity that is summed; angular momentum is about the origin, volume is mass "
+              "over density",
+              .names = quantity_names),
     PARAMETER_END,
 };
 

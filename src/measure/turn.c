@@ -12,12 +12,7 @@
 static const char *const axis_names[] = {"x", "y", "z", NULL};
 
 const struct parameter measure_turn_table[] = {
-    {.key = "axis",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct measure_turn, axis),
-     .standard = "z",
-     .names = axis_names,
-     .help = "the axis of rotation"},
+    PARAMETER(CHOICE, struct measure_turn, axis, "z", "the axis of rotation", .names = axis_names),
     PARAMETER_END,
 };
 

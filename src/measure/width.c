@@ -3,21 +3,10 @@
 #include "measure/measure.h"
 
 const struct parameter measure_width_table[] = {
-    {.key = "field",
-     .kind = PARAMETER_TEXT,
-     .offset = offsetof(struct measure_width, field),
-     .standard = PARAMETER_REQUIRED,
-     .help = "the field that jumps: pressure, stress.xx"},
-    {.key = "ahead",
-     .kind = PARAMETER_QUANTITY,
-     .offset = offsetof(struct measure_width, ahead),
-     .standard = PARAMETER_REQUIRED,
-     .help = "its value ahead of the front"},
-    {.key = "behind",
-     .kind = PARAMETER_QUANTITY,
-     .offset = offsetof(struct measure_width, behind),
-     .standard = PARAMETER_REQUIRED,
-     .help = "its value behind the front"},
+    PARAMETER(TEXT, struct measure_width, field, REQUIRED,
+              "the field that jumps: pressure, stress.xx"),
+    PARAMETER(QUANTITY, struct measure_width, ahead, REQUIRED, "its value ahead of the front"),
+    PARAMETER(QUANTITY, struct measure_width, behind, REQUIRED, "its value behind the front"),
     PARAMETER_END,
 };
 

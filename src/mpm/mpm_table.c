@@ -11,150 +11,83 @@ static const char *const energy_names[] = {"conserved", "work", NULL};
 static const char *const damping_names[] = {"plain", "symmetric", NULL};
 
 const struct parameter mpm_table[] = {
-    {.key = "cell",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct mpm_parameters, cell),
-     .unit = "m",
-     .standard = PARAMETER_OPTIONAL,
-     .above = 0.0,
-     .below = INFINITY,
-     .help = "edge of a grid cell; grid planes lie at its multiples, and walls must lie on them; "
-             "default: twice the resolution"},
-    {.key = "shape",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct mpm_parameters, shape),
-     .standard = "quadratic",
-     .names = shape_names,
-     .help = "shape functions of the grid; linear; gimp: linear, averaged over particles of "
-             "constant size; quadratic, cubic: B-splines"},
-    {.key = "scheme",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct mpm_parameters, scheme),
-     .standard = "musl",
-     .names = scheme_names,
-     .help = "when stresses are updated; musl: last, from velocities mapped to nodes once more; "
-             "usl: last; usf: first"},
-    {.key = "transfer",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct mpm_parameters, transfer),
-     .standard = "flip",
-     .names = transfer_names,
-     .help = "what particles take from nodes; flip: accelerations (the fraction `flip`) and "
-             "velocities (the rest); apic: velocities and their first moments; tpic: velocities "
-             "and their gradients"},
-    {.key = "flip",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct mpm_parameters, flip),
-     .standard = "1",
-     .above = 0.0,
-     .below = 1.0,
-     .closed = true,
-     .help = "fraction of accelerations in `transfer: flip`; less than 1 damps what the grid does "
-             "not resolve"},
-    {.key = "order",
-     .kind = PARAMETER_INTEGER,
-     .offset = offsetof(struct mpm_parameters, order),
-     .standard = "1",
-     .above = 1,
-     .below = 20,
-     .closed = true,
-     .help = "order of the inverse of the full mass matrix for node velocities and accelerations; "
-             "1: lumped masses; with `flip: 0` the method FMPM of this order"},
+    PARAMETER(NUMBER, struct mpm_parameters, cell, OPTIONAL,
+              "edge of a grid cell; grid planes lie at its multiples, and walls must lie on them; "
+              "default: twice the resolution",
+              .unit = "m", .above = 0.0, .below = INFINITY),
+    PARAMETER(CHOICE, struct mpm_parameters, shape, "quadratic",
+              "shape functions of the grid; linear; gimp: linear, averaged over particles of "
+              "constant size; quadratic, cubic: B-splines",
+              .names = shape_names),
+    PARAMETER(CHOICE, struct mpm_parameters, scheme, "musl",
+              "when stresses are updated; musl: last, from velocities mapped to nodes once more; "
+              "usl: last; usf: first",
+              .names = scheme_names),
+    PARAMETER(CHOICE, struct mpm_parameters, transfer, "flip",
+              "what particles take from nodes; flip: accelerations (the fraction `flip`) and "
+              "velocities (the rest); apic: velocities and their first moments; tpic: velocities "
+              "and their gradients",
+              .names = transfer_names),
+    PARAMETER(NUMBER, struct mpm_parameters, flip, "1",
+              "fraction of accelerations in `transfer: flip`; less than 1 damps what the grid does "
+              "not resolve",
+              .above = 0.0, .below = 1.0, .closed = true),
+    PARAMETER(INTEGER, struct mpm_parameters, order, "1",
+              "order of the inverse of the full mass matrix for node velocities and accelerations; "
+              "1: lumped masses; with `flip: 0` the method FMPM of this order",
+              .above = 1, .below = 20, .closed = true),
     {.key = "courant",
      .kind = PARAMETER_NUMBER,
      .offset = offsetof(struct mpm_parameters, courant),
-     .standard = PARAMETER_OPTIONAL,
+     .standard = OPTIONAL,
      .above = 1e-6, /* a smaller step adds less than rounding takes, and no run of it ends */
      .below = 1.0,
      .help = "K of dt = min K h/(c + max |u_i|), h the cell; default: 0.2 with fluids, else 0.5"},
-    {.key = "quadrature",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct mpm_parameters, quadrature),
-     .standard = "faces",
-     .names = quadrature_names,
-     .help = "integration of the stress for nodal forces; faces: means on the faces between nodes, "
-             "so that a uniform stress gives no force; needs `energy: conserved` and `shape: "
-             "quadratic` or `cubic`; particles: each over its volume, as in the source"},
-    {.key = "energy",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct mpm_parameters, energy),
-     .standard = "conserved",
-     .names = energy_names,
-     .help = "energy of particles; conserved: what forces take from the motion at nodes; needs "
-             "`transfer: flip` with `flip: 1`, `order: 1`, a shape that is not linear, and in "
-             "axisymmetry `quadrature: faces`; work: work of the stress in the strain of the "
-             "particle, as in the source"},
-    {.key = "rotation",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct mpm_parameters, rotation),
-     .standard = "exact",
-     .names = rotation_names,
-     .help = "how stress rotates with the particle; exact: by a rotation; jaumann: by its linear "
-             "part, as in the source"},
-    {.key = "viscosity_quadratic",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct mpm_parameters, viscosity_quadratic),
-     .standard = "1.5",
-     .above = 0.0,
-     .below = 1e3,
-     .closed = true,
-     .help =
-         "b2 of the artificial viscosity q = rho h (b2 h d^2 - b1 c d) in compression, d < 0 the "
-         "volumetric strain rate"},
-    {.key = "viscosity_linear",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct mpm_parameters, viscosity_linear),
-     .standard = PARAMETER_OPTIONAL,
-     .above = 0.0,
-     .below = 1e3,
-     .closed = true,
-     .help = "b1 of the artificial viscosity; default: 0.06, and up to 0.2 in shocks in solids "
-             "and in explosives that burn by a rate"},
-    {.key = "viscosity_unresolved",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct mpm_parameters, viscosity_unresolved),
-     .standard = PARAMETER_OPTIONAL,
-     .above = 0.0,
-     .below = 10.0,
-     .closed = true,
-     .help = "b3 of the viscous pressure -b3 rho h c w in solids, where w is the part of the "
-             "volumetric strain rate that the nodes do not resolve. That part then does not change "
-             "the density; with b3 = 0 it does. Default: 2 with `scheme: musl`, energy that is "
-             "conserved and a b1 or b2 that is not zero, else 0"},
-    {.key = "shock_mixing",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct mpm_parameters, shock_mixing),
-     .standard = PARAMETER_OPTIONAL,
-     .above = 0.0,
-     .below = 100.0,
-     .closed = true,
-     .help = "rate, in c/h, at which the energies of particles that share a node in a shock are "
-             "mixed; velocities mix at two thirds of it; 0: no mixing; default: 3 with `transfer: "
-             "flip`, `order: 1` and a shape that is not linear, else 0"},
-    {.key = "shear_damping",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct mpm_parameters, shear_damping),
-     .standard = "0",
-     .above = 0.0,
-     .below = 1.0,
-     .closed = true,
-     .help = "Q of the damping of shear modes in cells of fluid, as a viscosity 4 Q c h; stable "
-             "at 1/(8 K) and less"},
-    {.key = "damping",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct mpm_parameters, damping),
-     .standard = "plain",
-     .names = damping_names,
-     .help = "which shear is damped; plain: with rotation; symmetric: without rotation"},
-    {.key = "gauge_pressure",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct mpm_parameters, gauge_pressure),
-     .unit = "Pa",
-     .standard = "0",
-     .below = INFINITY,
-     .above = -INFINITY,
-     .help = "ambient pressure, subtracted from that of fluids in forces: a uniform pressure makes "
-             "particles on a grid unstable"},
+    PARAMETER(CHOICE, struct mpm_parameters, quadrature, "faces",
+              "integration of the stress for nodal forces; faces: means on the faces between "
+              "nodes, so that a uniform stress gives no force; needs `energy: conserved` and "
+              "`shape: quadratic` or `cubic`; particles: each over its volume, as in the source",
+              .names = quadrature_names),
+    PARAMETER(CHOICE, struct mpm_parameters, energy, "conserved",
+              "energy of particles; conserved: what forces take from the motion at nodes; needs "
+              "`transfer: flip` with `flip: 1`, `order: 1`, a shape that is not linear, and in "
+              "axisymmetry `quadrature: faces`; work: work of the stress in the strain of the "
+              "particle, as in the source",
+              .names = energy_names),
+    PARAMETER(CHOICE, struct mpm_parameters, rotation, "exact",
+              "how stress rotates with the particle; exact: by a rotation; jaumann: by its linear "
+              "part, as in the source",
+              .names = rotation_names),
+    PARAMETER(NUMBER, struct mpm_parameters, viscosity_quadratic, "1.5",
+              "b2 of the artificial viscosity q = rho h (b2 h d^2 - b1 c d) in compression, d < 0 "
+              "the volumetric strain rate",
+              .above = 0.0, .below = 1e3, .closed = true),
+    PARAMETER(NUMBER, struct mpm_parameters, viscosity_linear, OPTIONAL,
+              "b1 of the artificial viscosity; default: 0.06, and up to 0.2 in shocks in solids "
+              "and in explosives that burn by a rate",
+              .above = 0.0, .below = 1e3, .closed = true),
+    PARAMETER(NUMBER, struct mpm_parameters, viscosity_unresolved, OPTIONAL,
+              "b3 of the viscous pressure -b3 rho h c w in solids, where w is the part of the "
+              "volumetric strain rate that the nodes do not resolve. That part then does not "
+              "change the density; with b3 = 0 it does. Default: 2 with `scheme: musl`, energy "
+              "that is conserved and a b1 or b2 that is not zero, else 0",
+              .above = 0.0, .below = 10.0, .closed = true),
+    PARAMETER(NUMBER, struct mpm_parameters, shock_mixing, OPTIONAL,
+              "rate, in c/h, at which the energies of particles that share a node in a shock are "
+              "mixed; velocities mix at two thirds of it; 0: no mixing; default: 3 with `transfer: "
+              "flip`, `order: 1` and a shape that is not linear, else 0",
+              .above = 0.0, .below = 100.0, .closed = true),
+    PARAMETER(NUMBER, struct mpm_parameters, shear_damping, "0",
+              "Q of the damping of shear modes in cells of fluid, as a viscosity 4 Q c h; stable "
+              "at 1/(8 K) and less",
+              .above = 0.0, .below = 1.0, .closed = true),
+    PARAMETER(CHOICE, struct mpm_parameters, damping, "plain",
+              "which shear is damped; plain: with rotation; symmetric: without rotation",
+              .names = damping_names),
+    PARAMETER(NUMBER, struct mpm_parameters, gauge_pressure, "0",
+              "ambient pressure, subtracted from that of fluids in forces: a uniform pressure "
+              "makes particles on a grid unstable",
+              .unit = "Pa", .below = INFINITY, .above = -INFINITY),
     PARAMETER_END};
 
 struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,

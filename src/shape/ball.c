@@ -2,18 +2,9 @@
 #include "shape/kinds.h"
 
 const struct parameter shape_ball_table[] = {
-    {.key = "center",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct shape_ball, center),
-     .unit = "m",
-     .help = "the center"},
-    {.key = "radius",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct shape_ball, radius),
-     .unit = "m",
-     .above = 0.0,
-     .below = INFINITY,
-     .help = "the radius"},
+    PARAMETER(VECTOR, struct shape_ball, center, REQUIRED, "the center", .unit = "m"),
+    PARAMETER(NUMBER, struct shape_ball, radius, REQUIRED, "the radius", .unit = "m", .above = 0.0,
+              .below = INFINITY),
     PARAMETER_END,
 };
 

@@ -2,16 +2,10 @@
 #include "shape/kinds.h"
 
 const struct parameter shape_box_table[] = {
-    {.key = "from",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct shape_box, from),
-     .unit = "m",
-     .help = "the corner of the low coordinates"},
-    {.key = "to",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct shape_box, to),
-     .unit = "m",
-     .help = "the corner of the high coordinates"},
+    PARAMETER(VECTOR, struct shape_box, from, REQUIRED, "the corner of the low coordinates",
+              .unit = "m"),
+    PARAMETER(VECTOR, struct shape_box, to, REQUIRED, "the corner of the high coordinates",
+              .unit = "m"),
     PARAMETER_END,
 };
 

@@ -3,11 +3,8 @@
 #include "shape/kinds.h"
 
 const struct parameter shape_difference_table[] = {
-    {.key = "shapes",
-     .kind = PARAMETER_LIST,
-     .offset = offsetof(struct shape_difference, shapes),
-     .kind_of_thing = "shape",
-     .help = "the shape to cut from, then those to cut away"},
+    PARAMETER(LIST, struct shape_difference, shapes, REQUIRED,
+              "the shape to cut from, then those to cut away", .kind_of_thing = "shape"),
     PARAMETER_END,
 };
 

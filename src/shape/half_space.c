@@ -2,16 +2,10 @@
 #include "shape/kinds.h"
 
 const struct parameter shape_half_space_table[] = {
-    {.key = "point",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct shape_half_space, point),
-     .unit = "m",
-     .help = "a point of the plane"},
-    {.key = "normal",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct shape_half_space, normal),
-     .unit = "",
-     .help = "outward normal of the plane, of any length"},
+    PARAMETER(VECTOR, struct shape_half_space, point, REQUIRED, "a point of the plane",
+              .unit = "m"),
+    PARAMETER(VECTOR, struct shape_half_space, normal, REQUIRED,
+              "outward normal of the plane, of any length", .unit = ""),
     PARAMETER_END,
 };
 

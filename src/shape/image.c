@@ -7,31 +7,17 @@
 #include "shape/pixels.h"
 
 const struct parameter shape_image_table[] = {
-    {.key = "file",
-     .kind = PARAMETER_TEXT,
-     .offset = offsetof(struct shape_image, file),
-     .is_path = true,
-     .help = "a PNG file, from this file's folder"},
-    {.key = "pixel",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct shape_image, pixel),
-     .unit = "m",
-     .above = 0.0,
-     .below = INFINITY,
-     .help = "edge of a pixel"},
-    {.key = "grey",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct shape_image, grey),
-     .unit = "",
-     .help = "the lowest and the highest grey value of the shape, 0 (black) to 255 (white); colors "
-             "count by their brightness, and transparent pixels belong to no shape"},
-    {.key = "from",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct shape_image, from),
-     .unit = "m",
-     .standard = PARAMETER_OPTIONAL,
-     .help = "the corner of the picture with the low coordinates; default: the origin",
-     .owned = offsetof(struct shape_image, pixels)},
+    PARAMETER(TEXT, struct shape_image, file, REQUIRED, "a PNG file, from this file's folder",
+              .is_path = true),
+    PARAMETER(NUMBER, struct shape_image, pixel, REQUIRED, "edge of a pixel", .unit = "m",
+              .above = 0.0, .below = INFINITY),
+    PARAMETER(VECTOR, struct shape_image, grey, REQUIRED,
+              "the lowest and the highest grey value of the shape, 0 (black) to 255 (white); "
+              "colors count by their brightness, and transparent pixels belong to no shape",
+              .unit = ""),
+    PARAMETER(VECTOR, struct shape_image, from, OPTIONAL,
+              "the corner of the picture with the low coordinates; default: the origin",
+              .unit = "m", .owned = offsetof(struct shape_image, pixels)),
     PARAMETER_END,
 };
 

@@ -2,11 +2,8 @@
 #include "shape/kinds.h"
 
 const struct parameter shape_intersection_table[] = {
-    {.key = "shapes",
-     .kind = PARAMETER_LIST,
-     .offset = offsetof(struct shape_intersection, shapes),
-     .kind_of_thing = "shape",
-     .help = "the shapes to intersect; at least one of them is bounded"},
+    PARAMETER(LIST, struct shape_intersection, shapes, REQUIRED,
+              "the shapes to intersect; at least one of them is bounded", .kind_of_thing = "shape"),
     PARAMETER_END,
 };
 

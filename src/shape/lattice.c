@@ -6,27 +6,16 @@
 #include "shape/kinds.h"
 
 static const struct parameter rings_table[] = {
-    {.key = "center",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct lattice_rings, center),
-     .unit = "m",
-     .standard = PARAMETER_OPTIONAL,
-     .help = "the center of the rings; default: that of the shape, whose inner and outer radius "
-             "the rings then fill"},
-    {.key = "count",
-     .kind = PARAMETER_INTEGER,
-     .offset = offsetof(struct lattice_rings, count),
-     .standard = "0",
-     .below = 1e6,
-     .closed = true,
-     .help = "number of particles in every ring, all of equal mass; 0: as the resolution requires, "
-             "more in wider rings"},
-    {.key = "start",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct lattice_rings, start),
-     .unit = "",
-     .standard = "0 deg",
-     .help = "the direction from x about which the rings are mirror images"},
+    PARAMETER(VECTOR, struct lattice_rings, center, OPTIONAL,
+              "the center of the rings; default: that of the shape, whose inner and outer radius "
+              "the rings then fill",
+              .unit = "m"),
+    PARAMETER(INTEGER, struct lattice_rings, count, "0",
+              "number of particles in every ring, all of equal mass; 0: as the resolution "
+              "requires, more in wider rings",
+              .below = 1e6, .closed = true),
+    PARAMETER(NUMBER, struct lattice_rings, start, "0 deg",
+              "the direction from x about which the rings are mirror images", .unit = ""),
     PARAMETER_END,
 };
 

@@ -6,26 +6,16 @@
 #include "shape/triangles.h"
 
 const struct parameter shape_mesh_table[] = {
-    {.key = "file",
-     .kind = PARAMETER_TEXT,
-     .offset = offsetof(struct shape_mesh, file),
-     .is_path = true,
-     .help = "an STL file, binary or text, from this file's folder; surfaces within others are "
-             "cavities, and those that overlap are joined"},
-    {.key = "unit",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct shape_mesh, unit),
-     .unit = "m",
-     .above = 0.0,
-     .below = INFINITY,
-     .help = "the length that the number 1 of the file means, such as 1 mm"},
-    {.key = "from",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct shape_mesh, from),
-     .unit = "m",
-     .standard = PARAMETER_OPTIONAL,
-     .help = "where the origin of the file lies; default: at the origin",
-     .owned = offsetof(struct shape_mesh, triangles)},
+    PARAMETER(TEXT, struct shape_mesh, file, REQUIRED,
+              "an STL file, binary or text, from this file's folder; surfaces within others are "
+              "cavities, and those that overlap are joined",
+              .is_path = true),
+    PARAMETER(NUMBER, struct shape_mesh, unit, REQUIRED,
+              "the length that the number 1 of the file means, such as 1 mm", .unit = "m",
+              .above = 0.0, .below = INFINITY),
+    PARAMETER(VECTOR, struct shape_mesh, from, OPTIONAL,
+              "where the origin of the file lies; default: at the origin", .unit = "m",
+              .owned = offsetof(struct shape_mesh, triangles)),
     PARAMETER_END,
 };
 

@@ -2,12 +2,10 @@
 #include "shape/kinds.h"
 
 const struct parameter shape_polygon_table[] = {
-    {.key = "points",
-     .kind = PARAMETER_VECTORS,
-     .offset = offsetof(struct shape_polygon, points),
-     .unit = "m",
-     .help = "the corners in order, in either direction; the last is joined to the first. Areas "
-             "enclosed twice are left out"},
+    PARAMETER(VECTORS, struct shape_polygon, points, REQUIRED,
+              "the corners in order, in either direction; the last is joined to the first. Areas "
+              "enclosed twice are left out",
+              .unit = "m"),
     PARAMETER_END,
 };
 

@@ -6,28 +6,16 @@
 static const char *const stagger_names[] = {"none", "x", "y", "z", NULL};
 
 const struct parameter shape_repeat_table[] = {
-    {.key = "shape",
-     .kind = PARAMETER_ONE_OF,
-     .offset = offsetof(struct shape_repeat, shape),
-     .kind_of_thing = "shape",
-     .help = "the shape, at the position of the first copy"},
-    {.key = "count",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct shape_repeat, count),
-     .unit = "",
-     .help = "the number of copies along each axis"},
-    {.key = "step",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct shape_repeat, step),
-     .unit = "m",
-     .help = "the distance from copy to copy along each axis"},
-    {.key = "stagger",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct shape_repeat, stagger),
-     .standard = "none",
-     .names = stagger_names,
-     .help = "the axis along which every second row of copies is shifted by half a step; in 3-D "
-             "rows are counted along both other axes"},
+    PARAMETER(ONE_OF, struct shape_repeat, shape, REQUIRED,
+              "the shape, at the position of the first copy", .kind_of_thing = "shape"),
+    PARAMETER(VECTOR, struct shape_repeat, count, REQUIRED, "the number of copies along each axis",
+              .unit = ""),
+    PARAMETER(VECTOR, struct shape_repeat, step, REQUIRED,
+              "the distance from copy to copy along each axis", .unit = "m"),
+    PARAMETER(CHOICE, struct shape_repeat, stagger, "none",
+              "the axis along which every second row of copies is shifted by half a step; in 3-D "
+              "rows are counted along both other axes",
+              .names = stagger_names),
     PARAMETER_END,
 };
 

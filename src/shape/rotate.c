@@ -5,29 +5,16 @@
 static const char *const axis_names[] = {"x", "y", "z", NULL};
 
 const struct parameter shape_rotate_table[] = {
-    {.key = "shape",
-     .kind = PARAMETER_ONE_OF,
-     .offset = offsetof(struct shape_rotate, shape),
-     .kind_of_thing = "shape",
-     .help = "the shape before the rotation"},
-    {.key = "angle",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct shape_rotate, angle),
-     .unit = "",
-     .help = "rotation angle, such as 30 deg; counterclockwise in 2-D, and in 3-D seen against the "
-             "axis"},
-    {.key = "about",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct shape_rotate, about),
-     .unit = "m",
-     .standard = PARAMETER_OPTIONAL,
-     .help = "a point on the axis of rotation; default: the origin"},
-    {.key = "axis",
-     .kind = PARAMETER_CHOICE,
-     .offset = offsetof(struct shape_rotate, axis),
-     .standard = "z",
-     .names = axis_names,
-     .help = "direction of the axis of rotation; z in 2-D"},
+    PARAMETER(ONE_OF, struct shape_rotate, shape, REQUIRED, "the shape before the rotation",
+              .kind_of_thing = "shape"),
+    PARAMETER(
+        NUMBER, struct shape_rotate, angle, REQUIRED,
+        "rotation angle, such as 30 deg; counterclockwise in 2-D, and in 3-D seen against the axis",
+        .unit = ""),
+    PARAMETER(VECTOR, struct shape_rotate, about, OPTIONAL,
+              "a point on the axis of rotation; default: the origin", .unit = "m"),
+    PARAMETER(CHOICE, struct shape_rotate, axis, "z", "direction of the axis of rotation; z in 2-D",
+              .names = axis_names),
     PARAMETER_END,
 };
 

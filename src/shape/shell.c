@@ -2,26 +2,11 @@
 #include "shape/kinds.h"
 
 const struct parameter shape_shell_table[] = {
-    {.key = "center",
-     .kind = PARAMETER_VECTOR,
-     .offset = offsetof(struct shape_shell, center),
-     .unit = "m",
-     .help = "the center"},
-    {.key = "inner",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct shape_shell, inner),
-     .unit = "m",
-     .above = 0.0,
-     .below = INFINITY,
-     .closed = true,
-     .help = "the inner radius"},
-    {.key = "outer",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct shape_shell, outer),
-     .unit = "m",
-     .above = 0.0,
-     .below = INFINITY,
-     .help = "the outer radius"},
+    PARAMETER(VECTOR, struct shape_shell, center, REQUIRED, "the center", .unit = "m"),
+    PARAMETER(NUMBER, struct shape_shell, inner, REQUIRED, "the inner radius", .unit = "m",
+              .above = 0.0, .below = INFINITY, .closed = true),
+    PARAMETER(NUMBER, struct shape_shell, outer, REQUIRED, "the outer radius", .unit = "m",
+              .above = 0.0, .below = INFINITY),
     PARAMETER_END,
 };
 

@@ -2,11 +2,8 @@
 #include "shape/kinds.h"
 
 const struct parameter shape_union_table[] = {
-    {.key = "shapes",
-     .kind = PARAMETER_LIST,
-     .offset = offsetof(struct shape_union, shapes),
-     .kind_of_thing = "shape",
-     .help = "the shapes that are joined"},
+    PARAMETER(LIST, struct shape_union, shapes, REQUIRED, "the shapes that are joined",
+              .kind_of_thing = "shape"),
     PARAMETER_END,
 };
 

@@ -27,11 +27,11 @@ struct nonsense_parameters {
     int64_t only;           /* the body; -1: all */
 };
 
-#define NONSENSE(name, of)                                                    \
-    {                                                                         \
-        .key = #name, .kind = PARAMETER_NUMBER,                               \
-        .offset = offsetof(struct nonsense_parameters, name), .unit = of,     \
-        .standard = PARAMETER_OPTIONAL, .above = -INFINITY, .below = INFINITY \
+#define NONSENSE(name, of)                                                                      \
+    {                                                                                           \
+        .key = #name, .kind = PARAMETER_NUMBER,                                                 \
+        .offset = offsetof(struct nonsense_parameters, name), .unit = of, .standard = OPTIONAL, \
+        .above = -INFINITY, .below = INFINITY                                                   \
     }
 
 static const struct parameter nonsense_table[] = {
