@@ -26,14 +26,15 @@ static struct error *check_faces(const struct simulation_case *input,
     return error;
 }
 
-/* The error of a domain that ends beyond all bodies; rigid bodies may fill what is there. */
-static struct error *check_filled(const struct simulation_case *input,
-                                  const struct face_place (*face)[2], double edge)
+/* The error of a domain that ends beyond all bodies; what blocks cells may fill what is there. */
+static struct error *check_filled(const struct place *place, const struct face_place (*face)[2],
+                                  double edge)
 {
+    const struct simulation_case *input = place->input;
     struct error *error = NULL;
-    if (!input->domain.low.count && !input->domain.high.count)
+    if (place_blocks_any(place) || (!input->domain.low.count && !input->domain.high.count))
         return NULL;
-    for (int axis = 0; axis < input->dimension && !has_rigid_body(input); axis++)
+    for (int axis = 0; axis < input->dimension; axis++)
         for (int side = 0; side < 2; side++) {
             double reached = side ? -INFINITY : INFINITY;
             for (int b = 0; b < input->bodies.count; b++) {
@@ -98,7 +99,8 @@ struct error *gas_find_domain(const struct simulation *simulation, struct cell_b
         return input_error(input, "resolution", NULL,
                            "the domain has %.3g cells, and a rank computes 2e9 at most", all);
     const struct face_place(*faces)[2] = (const struct face_place(*)[2])face;
-    return error_join(check_faces(input, faces, edge), check_filled(input, faces, edge));
+    return error_join(check_faces(input, faces, edge),
+                      check_filled(&simulation->problem->place, faces, edge));
 }
 
 static bool varies(const struct boundary_input *boundary)
