@@ -72,20 +72,16 @@ static void find_mean_density(const struct simulation_case *input, struct estima
     estimate->mean_density = estimate->mass / volume;
 }
 
-/* The velocity of BODY at the start, in the middle of it. */
-static struct vec3 velocity_of(const struct simulation_case *input, int body, struct vec3 middle)
+/* Where the middle of BODY is, and how fast it moves there. */
+static void find_motion(const struct simulation_case *input, int body, struct body_estimate *of)
 {
     const struct field_list *given = &case_body(input, body)->velocity;
-    double velocity[3] = {0.0, 0.0, 0.0};
-    for (int axis = 0; axis < given->count && axis < 3; axis++)
-        velocity[axis] = field_at(&given->at[axis], middle, 0.0);
-    return vec3_make(velocity[0], velocity[1], velocity[2]);
-}
-
-static struct vec3 middle_of(const struct simulation_case *input, int body)
-{
     const struct bounds bounds = body_bounds(input, body);
-    return vec3_scale(0.5, vec3_add(bounds.low, bounds.high));
+    double velocity[3] = {0.0, 0.0, 0.0};
+    of->middle = vec3_scale(0.5, vec3_add(bounds.low, bounds.high));
+    for (int axis = 0; axis < given->count && axis < 3; axis++)
+        velocity[axis] = field_at(&given->at[axis], of->middle, 0.0);
+    of->velocity = vec3_make(velocity[0], velocity[1], velocity[2]);
 }
 
 /* How fast BODY runs into a wall, m/s. */
@@ -107,16 +103,15 @@ static double fastest_impact(const struct simulation_case *input, const struct e
 {
     double fastest = 0.0;
     for (int a = 0; a < input->bodies.count; a++) {
-        const struct vec3 place = middle_of(input, a), velocity = velocity_of(input, a, place);
-        const double sound = estimate->body[a].sound_long;
-        fastest = maximum(fastest, speed_into_wall(input, velocity) / sound);
+        const struct body_estimate *one = &estimate->body[a];
+        fastest = maximum(fastest, speed_into_wall(input, one->velocity) / one->sound_long);
         for (int b = 0; b < a; b++) {
-            const struct vec3 there = middle_of(input, b);
-            const struct vec3 apart = vec3_sub(there, place),
-                              moves = vec3_sub(velocity_of(input, b, there), velocity);
+            const struct body_estimate *other = &estimate->body[b];
+            const struct vec3 apart = vec3_sub(other->middle, one->middle),
+                              moves = vec3_sub(other->velocity, one->velocity);
             if (vec3_dot(apart, moves) < 0.0)
                 fastest = maximum(fastest, sqrt(vec3_dot(moves, moves)) /
-                                               minimum(sound, estimate->body[b].sound_long));
+                                               minimum(one->sound_long, other->sound_long));
         }
     }
     return fastest;
@@ -143,6 +138,7 @@ static struct error *estimate_with(const struct simulation_case *input, struct e
     error = error_join(error, found);
     for (int i = 0; i < bodies && !error; i++) {
         estimate->body[i].summary = summary[i];
+        find_motion(input, i, &estimate->body[i]);
         add_body(input, i, estimate);
     }
     free(summary);

@@ -9,6 +9,7 @@ struct body_estimate {
     struct body_summary summary;
     double sound_long, sound_shear; /* m/s */
     double step;                    /* s, that it allows */
+    struct vec3 middle, velocity;   /* of its bounds; there, at the start, m/s */
 };
 
 struct estimate {
