@@ -47,7 +47,7 @@ static struct error *check_included(const struct document *document)
     for (int o = 1; o < document->origin_count; o++) {
         const char *origin = document->origins[o];
         int known = 0, unknown = 0;
-        struct place first = {0};
+        struct mark first = {0};
         for (int i = 0; i < root->count; i++) {
             if (root->child[i]->key_place.origin != origin)
                 continue;

@@ -28,7 +28,7 @@ static struct node *take_entry(struct node *root, const char *key)
 }
 
 /* Appends to MAP the entry KEY: a scalar with TEXT, or a map; NULL when memory is out. */
-static struct node *append_entry(struct node *map, struct place place, const char *key,
+static struct node *append_entry(struct node *map, struct mark place, const char *key,
                                  const char *text)
 {
     struct node *node = node_new(text ? NODE_SCALAR : NODE_MAP, place);
@@ -43,7 +43,7 @@ static struct node *append_entry(struct node *map, struct place place, const cha
 /* Makes ENTRY, of the map of SPELLING, one of `boundaries`. */
 static bool rewrite(struct node *entry, const struct spelling *spelling)
 {
-    const struct place place = node_place(entry);
+    const struct mark place = node_place(entry);
     const int count = entry->count;
     for (int i = 0; i < count && spelling->key; i++)
         if (!strcmp(entry->child[i]->key, spelling->key)) {
@@ -107,7 +107,7 @@ struct error *case_take_spellings(struct simulation_case *input)
     struct node *all = append_entry(root, own ? own->key_place : root->place, "boundaries", NULL);
     if (!all)
         return out_of_memory();
-    /* the entries of the case itself are later, for the last that names a position counts */
+    /* Those of `boundaries` itself come last: where several give a position, the last counts. */
     for (size_t k = 0; k < COUNT_OF(spellings); k++)
         error = error_join(error, take_spelling(input, all, &spellings[k]));
     error = error_join(error, move_entries(all, own, NULL));

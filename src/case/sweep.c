@@ -26,7 +26,7 @@ static bool is_key_of_case(const char *key)
 /* The path that KEY is about: a name of `let` before anything else. A mistake is told of TOLD at
  * PLACE. */
 static struct error *find_target(const struct document *document, const char *key,
-                                 struct place place, const char *told, char **path)
+                                 struct mark place, const char *told, char **path)
 {
     const struct node *let = node_entry(document->root, let_key);
     bool named = let && node_entry(let, key);
@@ -243,7 +243,7 @@ struct error *case_take_sweep(struct simulation_case *input, int run)
 /* What a study is about: a list of values of KEY, or (VALUES is NULL) the resolution. */
 struct varied {
     const char *key;
-    struct place place;
+    struct mark place;
     const struct node *values;
 };
 

@@ -27,11 +27,7 @@ const struct parameter afdmp_table[] = {
               "the last stage begins when the pressure of the gas beside the region has changed by "
               "this factor",
               .above = 1.0, .below = INFINITY),
-    PARAMETER(TABLE, struct afdmp_parameters, mpm, OPTIONAL,
-              "options of the material points; the gas has cells of the same edge",
-              .table = mpm_table),
-    PARAMETER(TABLE, struct afdmp_parameters, gas, OPTIONAL, "options of the gas",
-              .table = gas_table),
+    PART_ROWS(struct afdmp_parameters),
     PARAMETER_END,
 };
 

@@ -27,11 +27,7 @@ const struct parameter cfdmp_table[] = {
               "the material points are computed from when on the pressure of the gas beside the "
               "region has changed by this factor; from the start where something moves them",
               .above = 1.0, .below = INFINITY),
-    PARAMETER(TABLE, struct cfdmp_parameters, mpm, OPTIONAL,
-              "options of the material points; the gas has cells of the same edge",
-              .table = mpm_table),
-    PARAMETER(TABLE, struct cfdmp_parameters, gas, OPTIONAL, "options of the gas",
-              .table = gas_table),
+    PART_ROWS(struct cfdmp_parameters),
     PARAMETER_END,
 };
 

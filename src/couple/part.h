@@ -110,6 +110,13 @@ void part_hide_cells(struct cell_blocks *cells, const int64_t low[3], const int6
 /* The key `region`; and what is wrong with it at KEY of the solver, for cells whose domain, edge
  * and dimension CELLS has. */
 extern const struct parameter region_table[];
+
+/* The rows of both parts in the table of a coupling, with the parameters T. */
+#define PART_ROWS(T)                                                                \
+    PARAMETER(TABLE, T, mpm, OPTIONAL,                                              \
+              "options of the material points; the gas has cells of the same edge", \
+              .table = mpm_table),                                                  \
+        PARAMETER(TABLE, T, gas, OPTIONAL, "options of the gas", .table = gas_table)
 struct error *region_check(const struct couple_region *region, const char *key,
                            const struct simulation_case *input, const struct cell_blocks *cells);
 

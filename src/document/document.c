@@ -13,7 +13,7 @@ static const char *const overlay_keys[] = {"short", "long"};
 
 static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
 
-struct error *place_verror(struct place place, const char *path, const char *format,
+struct error *place_verror(struct mark place, const char *path, const char *format,
                            va_list arguments)
 {
     char *message = text_vformat(format, arguments);
@@ -27,7 +27,7 @@ struct error *place_verror(struct place place, const char *path, const char *for
                           : error_context(error, "%s", place.origin);
 }
 
-struct error *place_error(struct place place, const char *path, const char *format, ...)
+struct error *place_error(struct mark place, const char *path, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -56,7 +56,7 @@ struct node *node_entry(const struct node *map, const char *key)
     return index < 0 ? NULL : map->child[index];
 }
 
-struct place node_place(const struct node *node)
+struct mark node_place(const struct node *node)
 {
     return node->kind == NODE_MAP ? node->key_place : node->place;
 }
@@ -249,7 +249,7 @@ static struct error *merge_overlay(struct document *document, const char *wanted
 
 /* Nothing in MAP is called what PATH starts with: suggest, when the word looks like a slip. */
 static struct error *no_such_key(const struct node *map, const char *path, const char *segment,
-                                 struct place place)
+                                 struct mark place)
 {
     const char **names = malloc(((size_t)map->count + 1) * sizeof *names);
     if (!names)
@@ -268,7 +268,7 @@ static struct error *no_such_key(const struct node *map, const char *path, const
 /* Makes the entry that the rest of a setting's path starts with: a map if the path goes on, else
  * the value, of which *VALUE is then taken. */
 static struct error *add_entry(struct node *map, const char *path, const char *rest,
-                               struct node **value, struct place place)
+                               struct node **value, struct mark place)
 {
     const char *dot = strchr(rest, '.');
     char *key = text_copy_part(rest, dot ? (size_t)(dot - rest) : strlen(rest));
@@ -310,7 +310,7 @@ static bool becomes_map(struct node *node, const char *rest)
 static struct error *set_value(struct node *root, const char *path, struct node **value)
 {
     struct node *node = root;
-    struct place place = (*value)->place;
+    struct mark place = (*value)->place;
     const char *rest = path;
     while (*value) {
         size_t length;
@@ -345,7 +345,7 @@ struct error *document_set(struct document *document, const char *path, struct n
 }
 
 /* Takes away the entry at PATH, so that its default applies. */
-static struct error *remove_value(struct node *root, const char *path, struct place place)
+static struct error *remove_value(struct node *root, const char *path, struct mark place)
 {
     struct node *node = root;
     const char *rest = path;
@@ -378,7 +378,7 @@ static struct error *apply_setting(struct document *document, const char *settin
     const char *origin = document_keep(document, text_format("--set %s", setting));
     if (!origin)
         return out_of_memory();
-    struct place place = {origin, 0, 0};
+    struct mark place = {origin, 0, 0};
     const char *equals = strchr(setting, '=');
     if (!equals || equals == setting)
         return place_error(place, "", "a setting is path.to.key=value");

@@ -29,7 +29,7 @@ enum { TEXT_MAX = 256 };
 void mark_wrong(struct reading *reading, const struct path *path);
 
 /* Adds a mistake at PLACE of PATH. */
-void complain(struct reading *reading, struct place place, const struct path *path,
+void complain(struct reading *reading, struct mark place, const struct path *path,
               const char *format, ...) BOLIDE_PRINTF(4, 5);
 void complain_memory(struct reading *reading);
 
@@ -38,7 +38,7 @@ void complain_kind(struct reading *reading, const struct node *node, const struc
                    const char *wanted);
 
 /* "WHAT "word" (did you mean "world"?)", or the names that are known. */
-void complain_unknown(struct reading *reading, struct place place, const struct path *path,
+void complain_unknown(struct reading *reading, struct mark place, const struct path *path,
                       const char *what, const char *word, const char *const *names, int count);
 
 /* The path that UNKNOWN, an entry at the top of a document that TABLE describes, may be meant for:
@@ -58,7 +58,7 @@ char *document_suggest(const struct reading *reading, const struct parameter *ta
 /* Makes of *PATH, the name of a file at PLACE, its name as seen from the folder of the file of that
  * place, or, in a setting, from the working folder; absolute if there is such a file. False when
  * memory is out. */
-bool make_path_whole(struct place place, char **path);
+bool make_path_whole(struct mark place, char **path);
 
 /* Any expression. WANTED says what, for a node that is none. False after a complaint,
  * or where the expression rests on a name that was complained about. */

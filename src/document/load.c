@@ -24,7 +24,7 @@ enum { FILES_MAX_BYTES = 16 << 20 };
 struct source {
     const struct source *by; /* the file that includes it */
     const char *path;
-    struct place place; /* of its name there; of the first file: unused */
+    struct mark place; /* of its name there; of the first file: unused */
     dev_t device;
     ino_t number;
 };
@@ -179,7 +179,7 @@ static char *path_from(const char *by, const char *name)
     return text_format("%.*s%s", (int)(slash + 1 - by), by, name);
 }
 
-bool make_path_whole(struct place place, char **path)
+bool make_path_whole(struct mark place, char **path)
 {
     const bool is_setting = place.line == 0;
     char *seen = path_from(is_setting ? "" : place.origin, *path);

@@ -10,9 +10,9 @@ enum { KEYS_MAX = 64 };
 
 enum node_kind { NODE_SCALAR, NODE_LIST, NODE_MAP };
 
-/* Origin is a file's name or a whole setting (`--set run.until=3 us`, whose line is 0). Lines and
- * columns count from 1. */
-struct place {
+/* Where something stands. Origin is a file's name or a whole setting (`--set run.until=3 us`, whose
+ * line is 0). Lines and columns count from 1. */
+struct mark {
     const char *origin;
     int line, column;
 };
@@ -25,7 +25,7 @@ struct node {
     bool foreign; /* from a file of the library, where the names of `let` mean nothing */
     char *text;   /* SCALAR */
     char *key;    /* of an entry of a map */
-    struct place place, key_place;
+    struct mark place, key_place;
     int count;
     struct node **child; /* LIST, MAP */
 };
@@ -48,9 +48,9 @@ void node_free(struct node *node);
 
 /* An error at PLACE if TEXT holds control characters; in what is no KEY tabs and line breaks may
  * stand. */
-struct error *refuse_controls(struct place place, const char *text, bool key);
+struct error *refuse_controls(struct mark place, const char *text, bool key);
 
-struct node *node_new(enum node_kind kind, struct place place);
+struct node *node_new(enum node_kind kind, struct mark place);
 /* With all below it; NULL when memory is out. */
 struct node *node_copy(const struct node *node);
 
@@ -85,9 +85,9 @@ struct error *document_open_with(const char *path, const struct node *include,
 struct error *node_merge(struct node *base, struct node *over);
 
 /* ERROR_INPUT at PLACE: `file:line:column: path: message`. PATH may be empty. */
-struct error *place_error(struct place place, const char *path, const char *format, ...)
+struct error *place_error(struct mark place, const char *path, const char *format, ...)
     BOLIDE_PRINTF(3, 4);
-struct error *place_verror(struct place place, const char *path, const char *format,
+struct error *place_verror(struct mark place, const char *path, const char *format,
                            va_list arguments);
 
 /* The node at PATH or its nearest ancestor; *exact tells which. */
@@ -101,7 +101,7 @@ struct error *document_evaluate(const struct document *document, const char *tex
                                 struct quantity *quantity);
 
 /* Where to point for a node: at the key of a map, at the value of anything else. */
-struct place node_place(const struct node *node);
+struct mark node_place(const struct node *node);
 
 /* Puts under the map at PATH, an entry of the document, the entries of LIBRARY that it lacks. Where
  * both have a map they merge in the same way if they share a key; else that of the document stands

@@ -21,7 +21,7 @@ struct parse {
     struct error *twins; /* keys given twice: they do not stop the reading, so that all are told */
 };
 
-struct node *node_new(enum node_kind kind, struct place place)
+struct node *node_new(enum node_kind kind, struct mark place)
 {
     struct node *node = calloc(1, sizeof *node);
     if (node) {
@@ -103,13 +103,13 @@ static bool is_quoted(const struct fy_event *event)
 }
 
 /* Where EVENT starts, OTHERWISE when nothing of it stands in the text. */
-static struct place place_of(const struct parse *parse, struct fy_event *event,
-                             struct place otherwise)
+static struct mark place_of(const struct parse *parse, struct fy_event *event,
+                            struct mark otherwise)
 {
     const struct fy_mark *mark = fy_event_start_mark(event);
     if (!mark)
         return otherwise;
-    struct place place = {parse->origin, 0, 0};
+    struct mark place = {parse->origin, 0, 0};
     if (parse->located) {
         place.line = mark->line + 1;
         place.column = mark->column + 1 - is_quoted(event); /* the mark stands behind a quote */
@@ -158,7 +158,7 @@ static struct error *syntax_error(const struct parse *parse)
     void *step = NULL;
     const struct fy_diag_error *found;
     while ((found = fy_diag_errors_iterate(parse->messages, &step))) {
-        struct place place = {parse->origin, 0, 0};
+        struct mark place = {parse->origin, 0, 0};
         if (parse->located) {
             place.line = found->line;
             place.column = found->column;
@@ -166,7 +166,7 @@ static struct error *syntax_error(const struct parse *parse)
         error = error_join(error, place_error(place, "", "%s", meaning_of(found->msg)));
     }
     if (!error) {
-        struct place place = {parse->origin, 0, 0};
+        struct mark place = {parse->origin, 0, 0};
         error = place_error(place, "", "this is not YAML");
     }
     return error;
@@ -188,7 +188,7 @@ static bool has_misread_quotes(const struct parse *parse, struct fy_event *event
     return false;
 }
 
-struct error *refuse_controls(struct place place, const char *text, bool key)
+struct error *refuse_controls(struct mark place, const char *text, bool key)
 {
     uint32_t code;
     for (size_t size; *text; text += size) {
@@ -203,8 +203,8 @@ struct error *refuse_controls(struct place place, const char *text, bool key)
 }
 
 /* The text of a scalar's event. */
-static struct error *take_text(const struct parse *parse, struct fy_event *event,
-                               struct place place, bool key, char **text)
+static struct error *take_text(const struct parse *parse, struct fy_event *event, struct mark place,
+                               bool key, char **text)
 {
     size_t length = 0;
     struct fy_token *token = event->scalar.value;
@@ -226,7 +226,7 @@ static struct error *take_text(const struct parse *parse, struct fy_event *event
     return error;
 }
 
-static struct error *build(struct parse *parse, struct fy_event *event, struct place before,
+static struct error *build(struct parse *parse, struct fy_event *event, struct mark before,
                            int depth, struct node **result);
 
 /* The next event, NULL on a mistake of syntax. */
@@ -236,8 +236,8 @@ static struct fy_event *next_event(const struct parse *parse)
 }
 
 /* Builds what the event starts and gives the event back to the parser. */
-static struct error *build_and_free(struct parse *parse, struct fy_event *event,
-                                    struct place before, int depth, struct node **result)
+static struct error *build_and_free(struct parse *parse, struct fy_event *event, struct mark before,
+                                    int depth, struct node **result)
 {
     struct error *error = build(parse, event, before, depth, result);
     fy_parser_event_free(parse->parser, event);
@@ -271,7 +271,7 @@ static struct error *add_entry(struct parse *parse, struct node *map, struct nam
 static struct error *build_entry(struct parse *parse, struct fy_event *event, int depth,
                                  struct node *map, struct name_index *index)
 {
-    struct place place = place_of(parse, event, map->place);
+    struct mark place = place_of(parse, event, map->place);
     bool simple = event->type == FYET_SCALAR;
     char *key = NULL;
     struct error *error = simple ? take_text(parse, event, place, true, &key) : NULL;
@@ -315,10 +315,10 @@ static struct error *build_children(struct parse *parse, int depth, struct node 
 }
 
 /* BEFORE is the place of the key, for a value of which nothing stands in the file. */
-static struct error *build(struct parse *parse, struct fy_event *event, struct place before,
+static struct error *build(struct parse *parse, struct fy_event *event, struct mark before,
                            int depth, struct node **result)
 {
-    struct place place = place_of(parse, event, before);
+    struct mark place = place_of(parse, event, before);
     if (event->type == FYET_ALIAS || fy_event_get_anchor_token(event))
         return place_error(place, "",
                            "anchors and aliases (& and *) are not supported; a text that starts "
@@ -353,7 +353,7 @@ static struct error *build(struct parse *parse, struct fy_event *event, struct p
 /* Runs through the stream: one document, whose only node becomes the root. */
 static struct error *build_document(struct parse *parse, struct node **root)
 {
-    struct place start = {parse->origin, parse->located ? 1 : 0, 1};
+    struct mark start = {parse->origin, parse->located ? 1 : 0, 1};
     for (;;) {
         struct fy_event *event = next_event(parse);
         if (!event)
@@ -364,7 +364,7 @@ static struct error *build_document(struct parse *parse, struct node **root)
             continue;
         }
         if (type == FYET_DOCUMENT_START || type == FYET_STREAM_END) {
-            struct place place = place_of(parse, event, start);
+            struct mark place = place_of(parse, event, start);
             fy_parser_event_free(parse->parser, event);
             if (type == FYET_STREAM_END)
                 break;
@@ -389,7 +389,7 @@ static struct error *build_document(struct parse *parse, struct node **root)
  * or takes for an end (a zero byte). No case has a use for directives. */
 static struct error *check_bytes(const char *text, size_t length, const char *origin, bool located)
 {
-    struct place place = {origin, 1, 1};
+    struct mark place = {origin, 1, 1};
     const char *wrong = NULL;
     uint32_t code;
     for (size_t at = 0, size; at < length && !wrong; at += size) {
@@ -401,7 +401,7 @@ static struct error *check_bytes(const char *text, size_t length, const char *or
         else if (text[at] == '%' && place.column == 1)
             wrong = "a line cannot start with %";
         else if (text[at] == '\n')
-            place = (struct place){origin, place.line + 1, 1};
+            place = (struct mark){origin, place.line + 1, 1};
         else
             place.column++;
     }

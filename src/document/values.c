@@ -48,7 +48,7 @@ void mark_wrong(struct reading *reading, const struct path *path)
     mark_part(reading->document, text, strlen(text));
 }
 
-void complain(struct reading *reading, struct place place, const struct path *path,
+void complain(struct reading *reading, struct mark place, const struct path *path,
               const char *format, ...)
 {
     char text[1024];
@@ -96,7 +96,7 @@ void list_text(const char *const *names, int count, char *text, size_t size)
     }
 }
 
-void complain_unknown(struct reading *reading, struct place place, const struct path *path,
+void complain_unknown(struct reading *reading, struct mark place, const struct path *path,
                       const char *what, const char *word, const char *const *names, int count)
 {
     const bool full = error_is_full(reading->error);

@@ -48,13 +48,9 @@ const struct parameter gas_table[] = {
     PARAMETER(ONE_OF, struct gas_parameters, method, "muscl-hancock",
               "the method of the sweeps along the axes: its name, or {NAME: {options}}",
               .kind_of_thing = "gas-method"),
-    {.key = "courant",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct gas_parameters, courant),
-     .standard = OPTIONAL,
-     .above = 1e-6, /* a smaller step adds less than rounding takes, and no run of it ends */
-     .below = 1.0,
-     .help = "K of dt = min K h/(|u_i| + c); default: 0.8, with lax-wendroff 0.2"},
+    PARAMETER(NUMBER, struct gas_parameters, courant, OPTIONAL,
+              "K of dt = min K h/(|u_i| + c); default: 0.8, with lax-wendroff 0.2",
+              .above = COURANT_LEAST, .below = 1.0),
     PARAMETER(NUMBER, struct gas_parameters, ambient, OPTIONAL,
               "pressure of the air before a blast, for the fields `peak_overpressure` and "
               "`peak_impulse`; default: without these fields",

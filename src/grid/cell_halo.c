@@ -33,16 +33,16 @@ static struct error *out_of_memory(void)
 
 /* A place along the axis outside the domain, taken into it; FILLED where a face does not say how,
  * and INSTEAD is not to be used for it. */
-struct place {
+struct axis_place {
     int64_t at;
     bool turned, filled;
 };
 
-static struct place place_inside(const struct planning *p, int64_t at,
-                                 const enum cell_face *instead)
+static struct axis_place place_inside(const struct planning *p, int64_t at,
+                                      const enum cell_face *instead)
 {
     const int64_t low = p->cells->low[p->axis], high = p->cells->high[p->axis];
-    struct place place = {at, false, false};
+    struct axis_place place = {at, false, false};
     while (place.at < low || place.at >= high) {
         const int side = place.at >= high;
         enum cell_face face = p->halo->face[p->axis][side];
@@ -64,7 +64,7 @@ static struct place place_inside(const struct planning *p, int64_t at,
 
 /* The cell of the domain at PLACE along the axis, beside block B. */
 static struct cell_source source_of(struct planning *p, const struct cell_block *b,
-                                    struct place place)
+                                    struct axis_place place)
 {
     int64_t at[3] = {b->corner[0], b->corner[1], b->corner[2]};
     at[p->axis] = place.at;
@@ -124,7 +124,7 @@ static void find_sources(struct planning *p)
                 const struct cell_block *block = &cells->block[b];
                 const int64_t corner = block->corner[p->axis],
                               at = side ? corner + block->count[p->axis] + k : corner - 1 - k;
-                const struct place place = place_inside(p, at, NULL);
+                const struct axis_place place = place_inside(p, at, NULL);
                 axis->beyond[b][side][k] =
                     place.filled ? fill(p, b, side, k, at) : source_of(p, block, place);
             }

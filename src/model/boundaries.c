@@ -21,8 +21,7 @@ struct mirrors boundaries_images(const struct face face[3][2])
     return images;
 }
 
-/* The names of the kinds of SUPPORTED as `a, b, c`; of the solvers of the catalogue that have
- * KIND. */
+/* Writes the names of the kinds in SUPPORTED as `a, b, c`. */
 static void kinds_text(unsigned supported, char *text, size_t size)
 {
     const char *names[BOUNDARY_KINDS];
@@ -32,6 +31,8 @@ static void kinds_text(unsigned supported, char *text, size_t size)
             names[count++] = boundary_kind_name(kind);
     list_text(names, count, text, size);
 }
+
+/* Writes the names of the solvers of the catalogue that have KIND. */
 static void solvers_text(const struct simulation_case *input, int kind, char *text, size_t size)
 {
     enum { MOST = 16 };
@@ -44,7 +45,7 @@ static void solvers_text(const struct simulation_case *input, int kind, char *te
     list_text(names, count, text, size);
 }
 
-/* What else serves particles. */
+/* What a solver of particles offers in its place. */
 static const char *const instead[BOUNDARY_KINDS] = {
     [BOUNDARY_TRANSMITTING] =
         "; or end the material with a few particles of a `frozen` body, which waves leave through",

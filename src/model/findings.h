@@ -7,7 +7,7 @@
 
 enum severity {
     FINDING_NOTE,      /* what something is read as */
-    FINDING_DOUBTFUL,  /* no mistake, but maybe none of the user's wishes */
+    FINDING_DOUBTFUL,  /* possible, but perhaps not what is meant */
     FINDING_NO_EFFECT, /* it does nothing, or contradicts itself */
     FINDING_COARSE,    /* the resolution is too coarse for it */
     FINDING_WRONG,     /* no solver, or not that of the case, can do it */

@@ -40,7 +40,7 @@ double largest_diameter(const struct simulation_case *input);
 struct error *generate_count(const struct place *place, const struct ranks *ranks,
                              int64_t *particles);
 
-/* Finds what is no mistake but may be none of the user's wishes: a body so thin that others get
+/* Finds what is possible but perhaps not what is meant: a body so thin that others get
  * through it, or that it becomes one particles thickness; a start below 0 K; a body that an axis or
  * mirror cuts, unless in half; one whose particles have another volume than its shape. */
 void generate_judge(struct findings *findings);

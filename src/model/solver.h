@@ -58,7 +58,11 @@ struct judgement {
 
 /* Among the bits of solver_class.boundaries: faces may have several parts. */
 #define BOUNDARY_PARTS (1u << BOUNDARY_KINDS)
-/* The boundary that every solver has. */
+/* Courant numbers lie above this: a smaller step adds less than rounding takes, and no run of it
+ * ends. */
+#define COURANT_LEAST 1e-6
+
+/* The boundaries that every solver has. */
 #define BOUNDARIES_CLOSED (1u << BOUNDARY_REFLECTING | 1u << BOUNDARY_SYMMETRY)
 
 struct solver_class {

@@ -36,13 +36,9 @@ const struct parameter mpm_table[] = {
               "order of the inverse of the full mass matrix for node velocities and accelerations; "
               "1: lumped masses; with `flip: 0` the method FMPM of this order",
               .above = 1, .below = 20, .closed = true),
-    {.key = "courant",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct mpm_parameters, courant),
-     .standard = OPTIONAL,
-     .above = 1e-6, /* a smaller step adds less than rounding takes, and no run of it ends */
-     .below = 1.0,
-     .help = "K of dt = min K h/(c + max |u_i|), h the cell; default: 0.2 with fluids, else 0.5"},
+    PARAMETER(NUMBER, struct mpm_parameters, courant, OPTIONAL,
+              "K of dt = min K h/(c + max |u_i|), h the cell; default: 0.2 with fluids, else 0.5",
+              .above = COURANT_LEAST, .below = 1.0),
     PARAMETER(CHOICE, struct mpm_parameters, quadrature, "faces",
               "integration of the stress for nodal forces; faces: means on the faces between "
               "nodes, so that a uniform stress gives no force; needs `energy: conserved` and "

@@ -12,15 +12,11 @@ const struct parameter sph_table[] = {
               "alpha of h = alpha (D_i + D_j)/2; the support of a pair is 2h; default: 1.2 for "
               "muscl in 2-D and 3-D, hllc and monaghan, else 1",
               .above = 0.5, .below = 3.0, .closed = true),
-    {.key = "courant",
-     .kind = PARAMETER_NUMBER,
-     .offset = offsetof(struct sph_parameters, courant),
-     .standard = OPTIONAL,
-     .above = 1e-6, /* a smaller step adds less than rounding takes, and no run of it ends */
-     .below = 1.0,
-     .help = "Courant number K; contact, standard and muscl: dt = min K D/sqrt(C^2 + (4 D div "
-             "U)^2); contact is stable up to 0.8 with smoothing 1, muscl up to 0.45; hllc and "
-             "monaghan: dt = min K h/C; default: 0.4, for hllc and monaghan 0.3"},
+    PARAMETER(NUMBER, struct sph_parameters, courant, OPTIONAL,
+              "Courant number K; contact, standard and muscl: dt = min K D/sqrt(C^2 + (4 D div "
+              "U)^2); contact is stable up to 0.8 with smoothing 1, muscl up to 0.45; hllc and "
+              "monaghan: dt = min K h/C; default: 0.4, for hllc and monaghan 0.3",
+              .above = COURANT_LEAST, .below = 1.0),
     PARAMETER(CHOICE, struct sph_parameters, conduction, "none",
               "heat conduction, for contact, standard and muscl; contact: with the contact "
               "temperature of two half-spaces; harmonic: with the harmonic mean of conductivities",
