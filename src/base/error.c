@@ -20,11 +20,11 @@ struct error {
     bool known_to_all;
 };
 
-static char *const out_of_memory_text[] = {"out of memory"};
-static const struct error out_of_memory = {ERROR_SYSTEM, 1, (char **)out_of_memory_text, 0, false};
+static char *const no_memory_text[] = {"out of memory"};
+static const struct error no_memory = {ERROR_SYSTEM, 1, (char **)no_memory_text, 0, false};
 
 /* The one cast from const: error_free and the editing functions leave this error alone. */
-static struct error *error_out_of_memory(void) { return (struct error *)&out_of_memory; }
+static struct error *no_memory_error(void) { return (struct error *)&no_memory; }
 
 /* A message in one visible line, whatever of other people's text it quotes. */
 static char *message_of(const char *format, va_list arguments)
@@ -47,16 +47,30 @@ struct error *error_new(enum error_kind kind, const char *format, ...)
         free(message);
         free(error);
         free(messages);
-        return error_out_of_memory();
+        return no_memory_error();
     }
     messages[0] = message;
     *error = (struct error){kind, 1, messages, 0, false};
     return error;
 }
 
+struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
+
+struct error *out_of_memory_for(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    char *what = text_vformat(format, arguments);
+    va_end(arguments);
+    struct error *error =
+        what ? error_new(ERROR_SYSTEM, "out of memory for %s", what) : out_of_memory();
+    free(what);
+    return error;
+}
+
 struct error *error_context(struct error *error, const char *format, ...)
 {
-    if (!error || error == &out_of_memory)
+    if (!error || error == &no_memory)
         return error;
     va_list arguments;
     va_start(arguments, format);
@@ -96,11 +110,11 @@ static void take_messages(struct error *first, struct error *second)
 
 struct error *error_join(struct error *first, struct error *second)
 {
-    if (!first || second == &out_of_memory) {
+    if (!first || second == &no_memory) {
         error_free(second ? first : NULL);
         return second ? second : first;
     }
-    if (!second || first == &out_of_memory) {
+    if (!second || first == &no_memory) {
         error_free(second);
         return first;
     }
@@ -124,7 +138,7 @@ enum error_kind error_kind(const struct error *error) { return error->kind; }
 
 struct error *error_known_to_all(struct error *error)
 {
-    if (error != &out_of_memory)
+    if (error != &no_memory)
         error->known_to_all = true;
     return error;
 }
@@ -143,7 +157,7 @@ const char *error_message(const struct error *error, int index)
 
 void error_free(struct error *error)
 {
-    if (!error || error == &out_of_memory)
+    if (!error || error == &no_memory)
         return;
     for (int i = 0; i < error_count(error); i++)
         free(error->messages[i]);

@@ -22,6 +22,10 @@ struct error;
 /* A new error with one message. */
 struct error *error_new(enum error_kind kind, const char *format, ...) BOLIDE_PRINTF(2, 3);
 
+/* ERROR_SYSTEM: "out of memory", and "out of memory for ...". */
+struct error *out_of_memory(void);
+struct error *out_of_memory_for(const char *format, ...) BOLIDE_PRINTF(1, 2);
+
 /* Puts "context: " before every message of ERROR and returns it; NULL stays NULL. */
 struct error *error_context(struct error *error, const char *format, ...) BOLIDE_PRINTF(2, 3);
 

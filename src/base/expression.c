@@ -90,7 +90,7 @@ static struct error *parse_unit(const char *start, const char *end, struct unit 
 {
     char *text = text_copy_part(start, (size_t)(end - start));
     if (!text)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     struct error *error = unit_parse(text, unit);
     free(text);
     return error;
@@ -393,7 +393,7 @@ struct error *expression_read(const char *text, const struct named_quantities *n
         return error_new(ERROR_INPUT, "an expression is longer than %d bytes", LONGEST_EXPRESSION);
     struct expression_reading *made = memory_allocate(sizeof *made);
     if (!made)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     made->text = made->at = text;
     made->names = names;
     made->arguments = arguments;

@@ -44,7 +44,7 @@ struct error *fields_visit(const char *store, const struct field *field, int fie
         char *name = text_format("%s/%s", store, declaration->name);
         error = name ? visitor->visit(visitor, name, declaration->number, field[k].data, count,
                                       declaration->components)
-                     : error_new(ERROR_SYSTEM, "out of memory");
+                     : out_of_memory();
         free(name);
     }
     return error;

@@ -13,8 +13,6 @@
 
 static const char part[] = ".part";
 
-static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
 static struct error *system_error(const char *path, int number)
 {
     return error_new(ERROR_SYSTEM, "%s: %s", path, strerror(number));

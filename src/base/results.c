@@ -24,8 +24,6 @@ static const char *const result_files[] = {
 };
 static const char *const result_folders[] = {"snapshots", "pictures", "probes", "profiles"};
 
-static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
 static struct error *system_error(const char *path, int number)
 {
     return error_new(ERROR_SYSTEM, "%s: %s", path, strerror(number));

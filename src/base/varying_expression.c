@@ -48,7 +48,7 @@ static struct error *write_out(const struct expression_reading *reading, char **
     size_t size = (size_t)reading->length + (size_t)reading->variables * QUANTITY_TEXT + 1;
     char *out = *text = malloc(size);
     if (!out)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     int variable = 0;
     for (const char *in = reading->formula; *in; in++) {
         if (in[0] != ' ' || in[1] != 'v') {
@@ -79,7 +79,7 @@ static struct error *keep(const struct expression_reading *reading, int count,
     expression->values = calloc((size_t)reading->variables + 1, sizeof *expression->values);
     expression->occurrence = calloc((size_t)count + 1, sizeof *expression->occurrence);
     if (!expression->values || !expression->occurrence)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     for (int i = 0; i < reading->variables; i++)
         if (reading->argument[i])
             expression->occurrence[expression->occurrences++] =
@@ -118,7 +118,7 @@ struct error *varying_expression_compile(const char *text, unsigned arguments,
         return expression_evaluate(text, names, result);
     }
     struct varying_expression *made = memory_allocate(sizeof *made);
-    struct error *error = made ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = made ? NULL : out_of_memory();
     if (made) {
         made->parser = mupCreate(muBASETYPE_FLOAT);
         error = compile(reading, named, &result->dimension, made);

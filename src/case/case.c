@@ -11,8 +11,6 @@
 #include "case/library.h"
 #include "document/nodes.h"
 
-static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
 /* Before anything else: a file of another format would only give misleading messages. */
 static struct error *check_format(const struct document *document)
 {

@@ -22,7 +22,7 @@ struct error *case_fill_material(struct material_input *material)
 {
     struct material *plain = memory_allocate(sizeof *plain);
     if (!plain)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     material->material = plain;
     plain->heat = material->heat;
     plain->afterburn = material->afterburn;

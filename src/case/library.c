@@ -12,8 +12,6 @@
 #include "material/any.h"
 #include "material/material.h"
 
-static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
 static bool is_yaml(const char *name, size_t length)
 {
     return length > 5 && name[0] != '.' && !strcmp(name + length - 5, ".yaml");

@@ -106,7 +106,7 @@ static struct error *no_record(const struct lookup *lookup, const char *name)
                             "%s` makes it",
                             normal ? "" : " in the ", normal ? "" : form, normal ? "" : " form",
                             normal ? "" : " --", normal ? "" : form, lookup->path)
-           : error_new(ERROR_SYSTEM, "out of memory for a record");
+           : out_of_memory_for("a record");
     free(at);
     return error;
 }
@@ -163,8 +163,8 @@ struct error *case_take_record(struct simulation_case *input, const char *path)
     char *file = record_path(path);
     char *run =
         input->sweep_values ? sweep_run_name(input->sweep, input->sweep_values) : text_copy("");
-    struct error *error = file && run ? record_read(file, &lookup.record)
-                                      : error_new(ERROR_SYSTEM, "out of memory for a record");
+    struct error *error =
+        file && run ? record_read(file, &lookup.record) : out_of_memory_for("a record");
     if (!error) {
         error = take_all(input, &lookup, run);
         csv_free(&lookup.record);

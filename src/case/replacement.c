@@ -18,7 +18,7 @@ struct error *case_replacements(const struct simulation_case *input, struct repl
         room += (size_t)case_body(input, body)->replaces.count;
     result->at = memory_allocate(room * sizeof *result->at);
     if (!result->at)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     for (int body = 0; body < input->bodies.count; body++) {
         const struct name_list *names = &case_body(input, body)->replaces;
         for (int i = 0; i < names->count; i++) {

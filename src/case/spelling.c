@@ -16,8 +16,6 @@ static const struct spelling {
                  {"outflows", "across", "axis", "outflow"},
                  {"obstacles", NULL, "part", "rigid-body"}};
 
-static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
 /* Takes the entry KEY out of the document; NULL where it has none. */
 static struct node *take_entry(struct node *root, const char *key)
 {

@@ -100,7 +100,7 @@ struct error *case_read_start(struct simulation_case *input, const char *path,
         return NULL;
     char *file = path_of(path, start->from);
     if (!file)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     struct checking checking = {.input = input, .map = "start"};
     struct error *error = NULL;
     char *chain;

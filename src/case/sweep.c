@@ -13,8 +13,6 @@ enum { SWEEP_RUNS_MAX = 10000, SWEEP_KEYS_MAX = 1000 };
 static const char sweep_key[] = "sweep", let_key[] = "let", study_key[] = "convergence",
                   include_key[] = "include";
 
-static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
 static bool is_key_of_case(const char *key)
 {
     for (const struct parameter *p = case_table; !PARAMETER_IS_END(p); p++)

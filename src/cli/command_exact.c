@@ -87,7 +87,7 @@ static struct error *print_solution(const struct choice *choice, const void *val
     struct exact_number numbers[EXACT_NUMBERS];
     void *solved = memory_allocate(class->size);
     if (!solved)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     struct error *error = class->solve(values, solved);
     if (!error) {
         int count = class->numbers(solved, time, numbers);
@@ -131,10 +131,10 @@ static struct error *wants_values(const struct choice *choice)
     size_t size;
     FILE *out = open_memstream(&text, &size);
     if (!out)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     write_wanted(out, "", choice->table);
     struct error *error =
-        fclose(out) ? error_new(ERROR_SYSTEM, "out of memory")
+        fclose(out) ? out_of_memory()
                     : error_new(ERROR_INPUT, "%s needs its values:%s", choice->name, text);
     error = error_join(error, error_new(ERROR_INPUT,
                                         "`bolide help %s` explains them; `bolide exact CASE` takes "
@@ -178,7 +178,7 @@ static struct error *solve_choice(const struct choice *choice, const struct cli_
     TRY(read_time(options->time, &time));
     void *values = memory_allocate(choice->size);
     if (!values)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     struct error *error = document_open_text("{}", choice->name, options->settings.text,
                                              options->settings.count, NULL, &document);
     if (!error) {

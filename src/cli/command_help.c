@@ -225,7 +225,7 @@ static struct error *print_fields(void)
     struct particles *particles = NULL;
     struct population common = {0};
     if (!empty)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     const struct problem problem = {
         .input = &no_case, .dimension = 3, .materials = 1, .material = &gas};
     empty->problem = &problem;

@@ -120,8 +120,7 @@ static struct error *print_material(const char *folder, const char *name, bool c
         return error;
     }
     char *text = library_unknown(&folder, 1, name);
-    struct error *error =
-        text ? error_new(ERROR_INPUT, "%s", text) : error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = text ? error_new(ERROR_INPUT, "%s", text) : out_of_memory();
     free(text);
     return error;
 }

@@ -80,7 +80,7 @@ static struct error *write_case(FILE *from, const char *folder, const char *name
 {
     TRY(folder_make(folder));
     char *path = path_join(folder, "case.yaml");
-    struct error *error = path ? copy_file(from, path) : error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = path ? copy_file(from, path) : out_of_memory();
     if (!error)
         printf("%s, from the template %s: change it, then `bolide check %s` and `bolide run %s`\n",
                path, name, path, path);

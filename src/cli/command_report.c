@@ -11,7 +11,7 @@ static struct error *report_folder(const char *folder)
     TRY(page_write(folder));
     char *path = path_join(folder, "report.html");
     if (!path)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     printf("%s\n", path);
     free(path);
     return NULL;

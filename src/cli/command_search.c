@@ -67,8 +67,7 @@ static int search_case(const struct simulation_case *input, const struct search 
         .context = (void *)search,
     };
     char *name = text_format("%s-search", input->name);
-    struct error *error = name ? results_folder(options, path, name, &folder)
-                               : error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = name ? results_folder(options, path, name, &folder) : out_of_memory();
     if (!error)
         error = search_run(path, input->name, folder, &verifying, search, &result);
     if (result.found)

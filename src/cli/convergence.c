@@ -122,14 +122,14 @@ static struct error *folder_of(const struct cli_options *options, const char *pa
     if (!options->output)
         return results_folder(options, path, input->name, folder);
     *folder = name ? path_join(options->output, name) : NULL;
-    return *folder ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+    return *folder ? NULL : out_of_memory();
 }
 
 /* The runs of a study lie in its folder: it is theirs alone. */
 static struct error *check_folder(const char *folder, const struct cli_options *options)
 {
     char *runs = path_join(folder, "convergence");
-    struct error *error = !runs ? error_new(ERROR_SYSTEM, "out of memory") : NULL;
+    struct error *error = !runs ? out_of_memory() : NULL;
     if (runs && !options->overwrite && access(runs, F_OK) == 0)
         error =
             error_new(ERROR_INPUT,

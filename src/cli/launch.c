@@ -235,7 +235,7 @@ int launch_ranks(int count, char **words, int64_t ranks)
     const int file = path ? mkstemp(path) : -1;
     int status = ERROR_SYSTEM;
     if (!line || !path) {
-        status = report_error(error_new(ERROR_SYSTEM, "out of memory"));
+        status = report_error(out_of_memory());
     } else if (file < 0) {
         status = report_error(error_new(ERROR_SYSTEM, "%s: %s", path, strerror(errno)));
     } else {

@@ -123,7 +123,7 @@ static struct error *append(struct text_list *list, const char *text)
 {
     const char **grown = realloc(list->text, ((size_t)list->count + 1) * sizeof *grown);
     if (!grown)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     list->text = grown;
     list->text[list->count++] = text;
     return NULL;

@@ -51,5 +51,5 @@ struct error *results_folder(const struct cli_options *options, const char *path
                          "folder with --output",
                          path, name);
     *folder = options->output ? text_copy(options->output) : text_format("results/%s", name);
-    return *folder ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+    return *folder ? NULL : out_of_memory();
 }

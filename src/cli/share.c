@@ -62,13 +62,13 @@ struct error *case_locate(const char *given, char **path)
     size_t length = strlen(given);
     *path = is_folder(given) ? NULL : text_copy(given);
     if (*path || !is_folder(given))
-        return *path ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+        return *path ? NULL : out_of_memory();
     while (length > 1 && given[length - 1] == '/')
         length--;
     bool here = length == 1 && given[0] == '.';
     char *found = here ? text_copy("case.yaml") : text_format("%.*s/case.yaml", (int)length, given);
     if (!found)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     if (access(found, F_OK) == 0) {
         *path = found;
         return NULL;
@@ -85,7 +85,7 @@ struct error *cases_locate(struct cli_options *options)
     const int count = options->names.count;
     options->located = calloc((size_t)count + 1, sizeof *options->located);
     if (!options->located)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     for (int i = 0; i < count; i++) {
         error = error_join(error, case_locate(options->names.text[i], &options->located[i]));
         options->names.text[i] = options->located[i];

@@ -59,7 +59,7 @@ static struct error *reserve_changed(struct cfdmp *cfdmp)
     const int32_t blocks = gas_view(cfdmp->gas).cells->blocks;
     if (!memory_reserve((void **)&cfdmp->changed, &cfdmp->changed_capacity, blocks + 1, 0,
                         sizeof *cfdmp->changed))
-        return error_new(ERROR_SYSTEM, "out of memory for blocks of cells");
+        return out_of_memory_for("blocks of cells");
     memset(cfdmp->changed, 0, (size_t)blocks * sizeof *cfdmp->changed);
     return NULL;
 }

@@ -131,9 +131,7 @@ struct error *afdmp_map_to_gas(struct afdmp *afdmp, struct simulation *simulatio
     bool *changed = memory_allocate((size_t)view.cells->blocks + 1);
     struct error *error = ranks_agree(
         afdmp->ranks,
-        sums && internal && changed
-            ? NULL
-            : error_new(ERROR_SYSTEM, "out of memory for the map from particles to cells"));
+        sums && internal && changed ? NULL : out_of_memory_for("the map from particles to cells"));
     if (!error) {
         memset(internal, 0, cells * sizeof *internal);
         memset(changed, 0, (size_t)view.cells->blocks + 1);

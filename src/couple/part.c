@@ -7,10 +7,7 @@
 
 #include "base/memory.h"
 
-struct error *owned_error(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for the parts of the coupling");
-}
+struct error *owned_error(void) { return out_of_memory_for("the parts of the coupling"); }
 
 void *owned_new(struct owned *owned, size_t size)
 {

@@ -11,8 +11,6 @@
 /* The overlays that a document may carry, taken away whether they are wanted or not. */
 static const char *const overlay_keys[] = {"short", "long"};
 
-static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
 struct error *place_verror(struct mark place, const char *path, const char *format,
                            va_list arguments)
 {

@@ -36,8 +36,6 @@ struct loading {
     size_t bytes;
 };
 
-static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
 /* The whole of FILE, NULL when it cannot be read or has more than MOST bytes (errno tells why). */
 static char *read_all(FILE *file, size_t most, size_t *length)
 {

@@ -213,12 +213,11 @@ static struct error *take_text(const struct parse *parse, struct fy_event *event
                            "two quotes in a row cannot be in single quotes; use double quotes");
     const char *bytes = token ? fy_token_get_text(token, &length) : "";
     if (!bytes)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     if (memchr(bytes, '\0', length))
         return place_error(place, "", "a text cannot hold a zero byte");
     *text = text_copy_part(bytes, length);
-    struct error *error =
-        *text ? refuse_controls(place, *text, key) : error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = *text ? refuse_controls(place, *text, key) : out_of_memory();
     if (error) {
         free(*text);
         *text = NULL;
@@ -262,9 +261,9 @@ static struct error *add_entry(struct parse *parse, struct node *map, struct nam
     }
     if (!name_index_add(index, key, map->count)) {
         node_free(value);
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     }
-    return node_append(map, value) ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+    return node_append(map, value) ? NULL : out_of_memory();
 }
 
 /* Reads a key and its value into MAP; the event is the key's. */
@@ -310,7 +309,7 @@ static struct error *build_children(struct parse *parse, int depth, struct node 
         struct node *item = NULL;
         TRY(build_and_free(parse, event, node->place, depth + 1, &item));
         if (!node_append(node, item))
-            return error_new(ERROR_SYSTEM, "out of memory");
+            return out_of_memory();
     }
 }
 
@@ -332,7 +331,7 @@ static struct error *build(struct parse *parse, struct fy_event *event, struct m
                                                                       : NODE_SCALAR,
                                  place);
     if (!node)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     struct error *error;
     if (node->kind == NODE_SCALAR) {
         node->plain = style_of(event) == FYSS_PLAIN;
@@ -380,7 +379,7 @@ static struct error *build_document(struct parse *parse, struct node **root)
     if (*root)
         (*root)->text = text_copy("");
     if (!*root || !(*root)->text)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     (*root)->plain = true;
     return NULL;
 }
@@ -421,7 +420,7 @@ struct error *node_parse(const char *text, size_t length, const char *origin, bo
     struct parse parse = {.origin = origin, .text = text, .length = length, .located = located};
     parse.messages = fy_diag_create(&quiet);
     if (!parse.messages)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     fy_diag_set_collect_errors(parse.messages, true);
     struct fy_parse_cfg how = {.flags = FYPCF_QUIET | FYPCF_JSON_NONE, .diag = parse.messages};
     parse.parser = fy_parser_create(&how);

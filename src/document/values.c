@@ -62,7 +62,7 @@ void complain(struct reading *reading, struct mark place, const struct path *pat
 
 void complain_memory(struct reading *reading)
 {
-    reading->error = error_join(reading->error, error_new(ERROR_SYSTEM, "out of memory"));
+    reading->error = error_join(reading->error, out_of_memory());
 }
 
 /* What stands in the file, for "found ...". */

@@ -319,7 +319,7 @@ struct error *gas_fill(void *solver, struct simulation *simulation)
     f.near = memory_allocate(bodies * sizeof *f.near);
     f.here = memory_allocate(bodies * sizeof *f.here);
     if (!error && (!f.bounds || !f.near || !f.here))
-        error = error_new(ERROR_SYSTEM, "out of memory");
+        error = out_of_memory();
     for (size_t b = 0; b < bodies && !error; b++)
         f.bounds[b] = shape_bounds(&case_body(input, (int)b)->shape);
     for (int32_t b = 0; b < cells->blocks && !error && !f.error; b++)

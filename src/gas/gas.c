@@ -133,7 +133,7 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     gas->sleepless = problem_has_gravity(simulation->problem);
     struct cell_blocks *cells = gas->cells = memory_allocate(sizeof *cells);
     if (!cells)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     cells->dimension = simulation->problem->dimension;
     cells->edge = simulation->problem->place.resolution;
     cells->ranks = simulation->ranks;
@@ -237,18 +237,18 @@ struct error *gas_plan(struct gas *gas, struct simulation *simulation)
         free(gas->other[n]);
         gas->other[n] = memory_allocate(((size_t)cells->count + 1) * sizeof(double));
         if (!gas->other[n])
-            error = error_new(ERROR_SYSTEM, "out of memory for cells");
+            error = out_of_memory_for("cells");
     }
     gas->room = cells->count > gas->room ? cells->count : gas->room;
     if (!memory_reserve((void **)&gas->block, &gas->block_capacity, cells->blocks + 1, 0,
                         sizeof *gas->block))
-        error = error_join(error, error_new(ERROR_SYSTEM, "out of memory for blocks of cells"));
+        error = error_join(error, out_of_memory_for("blocks of cells"));
     free(gas->shocked);
     gas->shocked = memory_allocate(((size_t)cells->blocks + 1) * sizeof *gas->shocked);
     if (gas->shocked)
         memset(gas->shocked, 0, ((size_t)cells->blocks + 1) * sizeof *gas->shocked);
     else
-        error = error_join(error, error_new(ERROR_SYSTEM, "out of memory for blocks of cells"));
+        error = error_join(error, out_of_memory_for("blocks of cells"));
     for (int32_t b = 0; !error && b < cells->blocks; b++)
         gas->block[b] = (struct gas_block){.awake = true, .shocked = true, .stale = true};
     gas_bind(gas, cells);

@@ -7,10 +7,7 @@
 #include "base/memory.h"
 #include "material/material.h"
 
-struct error *marker_no_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for markers");
-}
+struct error *marker_no_memory(void) { return out_of_memory_for("markers"); }
 
 void gas_count_heat(struct gas *gas)
 {

@@ -128,7 +128,7 @@ static struct error *take(struct blast *blast)
     blast->fraction = memory_allocate((size_t)count * sizeof(double));
     for (int n = 0; n < SHELLS; n++)
         if (!blast->number[n] || !blast->speed || !blast->fraction)
-            return error_new(ERROR_SYSTEM, "out of memory for a start");
+            return out_of_memory_for("a start");
     for (int32_t i = 0; i < count; i++) {
         const int k = (int)((cells->position[i][0] - blast->low) / blast->edge);
         const double density = gas->u[GAS_DENSITY][i],
@@ -363,7 +363,7 @@ static struct error *transfer(struct filling *f, struct blast *blast)
     for (int n = 0; n < SHELLS; n++)
         blast->factor[n] = memory_allocate(((size_t)blast->bins + 1) * sizeof(double));
     if (!f->sum || !blast->factor[SHELLS - 1])
-        error = error_new(ERROR_SYSTEM, "out of memory for a start");
+        error = out_of_memory_for("a start");
     for (int32_t i = 0; i < cells->count && !error; i++)
         each_point(f, blast, i, sum_point, &summing);
     TRY(ranks_agree(f->simulation->ranks, error));
@@ -400,7 +400,7 @@ struct error *gas_check_source(const struct gas *gas, const struct simulation *s
     TRY(check_center(gas, simulation));
     struct blast *blast = memory_allocate(sizeof *blast);
     if (!blast)
-        return error_new(ERROR_SYSTEM, "out of memory for a start");
+        return out_of_memory_for("a start");
     struct error *error = open_blast(blast, start);
     if (!error)
         error = check_materials(simulation, gas, blast);
@@ -419,7 +419,7 @@ struct error *gas_start_from(struct gas *gas, struct simulation *simulation)
         f.center[axis] = start->center.at[axis];
     struct blast *blast = memory_allocate(sizeof *blast);
     if (!blast)
-        return error_new(ERROR_SYSTEM, "out of memory for a start");
+        return out_of_memory_for("a start");
     struct error *error = open_blast(blast, start);
     if (!error)
         error = error_context(compute(simulation, blast), "start.from: %s", start->from);

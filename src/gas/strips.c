@@ -12,11 +12,6 @@
 
 const char gas_repetition[] = "repetition of sweeps that would empty a cell";
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for strips of cells");
-}
-
 static void free_strips(struct gas_strips *strips)
 {
     free(strips->block);
@@ -93,7 +88,7 @@ static struct error *reserve_through(struct gas *gas, int threads)
     free(gas->through);
     gas->through = memory_allocate((size_t)threads * sizeof *gas->through);
     gas->throughs = gas->through ? threads : 0;
-    return gas->through ? NULL : out_of_memory();
+    return gas->through ? NULL : out_of_memory_for("strips of cells");
 }
 
 /* How many numbers pass through the faces of a SIDE of the cut across AXIS. */
@@ -115,7 +110,7 @@ static struct error *reserve_passed(struct gas *gas)
     }
     free(gas->kept_passed);
     gas->kept_passed = memory_allocate(most * sizeof *gas->kept_passed);
-    return gas->kept_passed ? NULL : out_of_memory();
+    return gas->kept_passed ? NULL : out_of_memory_for("strips of cells");
 }
 
 static struct error *plan_strips(struct gas *gas, const struct cell_blocks *cells, int threads)
@@ -133,7 +128,7 @@ static struct error *plan_strips(struct gas *gas, const struct cell_blocks *cell
         strips->block = memory_allocate(room * sizeof *strips->block);
         strips->strip = memory_allocate(2 * room * sizeof *strips->strip);
         if (!strips->block || !strips->strip)
-            return out_of_memory();
+            return out_of_memory_for("strips of cells");
         make_strips(cells, &gas->halo.axis[axis], axis, gas->round && axis == 0, strips);
     }
     return NULL;

@@ -25,9 +25,9 @@ struct candidate {
     int32_t first, strays; /* that have come, once they are sorted */
 };
 
-static struct error *out_of_memory(const struct binned *p)
+static struct error *no_room(const struct binned *p)
 {
-    return error_new(ERROR_SYSTEM, "out of memory for the cells of %d particles", p->count);
+    return out_of_memory_for("the cells of %d particles", p->count);
 }
 
 int64_t bins_reach(int dimension)
@@ -126,7 +126,7 @@ static struct error *find_strays(struct bins *bins, const struct binned *p)
                         (p->blocks + strays) * p->groups, (int64_t)p->blocks * p->groups,
                         sizeof *bins->candidate) ||
         !block_table_clear(&bins->table, p->blocks + strays))
-        return out_of_memory(p);
+        return no_room(p);
     bins->strays = 0;
     for (int32_t b = 0; b < p->blocks; b++)
         block_table_add(&bins->table, p->block[b].key);
@@ -182,7 +182,7 @@ static struct error *choose_bins(struct bins *bins, const struct binned *p)
     if (kept > 1)
         qsort(bins->candidate, (size_t)kept, sizeof *bins->candidate, compare_candidates);
     if (!memory_reserve((void **)&bins->bin, &bins->bin_capacity, kept, 0, sizeof *bins->bin))
-        return out_of_memory(p);
+        return no_room(p);
     bins->count = kept;
     memset(bins->begin, 0, sizeof bins->begin);
     for (int32_t b = 0; b < kept; b++)
@@ -247,7 +247,7 @@ struct error *bins_make(struct bins *bins, const struct binned *p, int threads)
                         1) ||
         !memory_reserve((void **)&bins->candidate, &bins->candidate_capacity,
                         (int64_t)p->blocks * p->groups, 0, sizeof *bins->candidate))
-        return out_of_memory(p);
+        return no_room(p);
     struct cell_loop loop = {p->dimension, p->edge, p->shift, p->position, {0.0}, {0.0}};
     for (int axis = 0; axis < 3; axis++) {
         loop.low[axis] = (double)p->low[axis];

@@ -20,11 +20,6 @@ static const struct field_declaration core_fields[] = {
     {"velocity", "m/s", "velocity", NUMBER_DOUBLE, 3, FIELD_DERIVED},
 };
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for cells");
-}
-
 static void bind_core(struct cell_blocks *cells)
 {
     cells->id = cell_blocks_field(cells, "id");
@@ -55,7 +50,7 @@ static struct error *allocate(struct cell_blocks *cells)
         free(field->data);
         field->data = memory_allocate(((size_t)cells->count + 1) * field_bytes(field));
         if (!field->data)
-            return out_of_memory();
+            return out_of_memory_for("cells");
     }
     bind_core(cells);
     return NULL;
@@ -136,7 +131,7 @@ static struct error *list_blocks(const struct cell_blocks *cells, struct cell_bl
     }
     *list = all < INT32_MAX ? memory_allocate((size_t)(all + 1.0) * sizeof **list) : NULL;
     if (!*list)
-        return out_of_memory();
+        return out_of_memory_for("cells");
     *count = 0;
     int64_t at[3];
     for (at[2] = low[2]; at[2] <= high[2]; at[2]++)
@@ -152,7 +147,7 @@ static struct error *place_blocks(struct cell_blocks *cells)
 {
     int64_t count = 0;
     if (!block_table_clear(&cells->table, cells->blocks + 1))
-        return out_of_memory();
+        return out_of_memory_for("cells");
     for (int32_t b = 0; b < cells->blocks; b++) {
         struct cell_block *block = &cells->block[b];
         block->first = (int32_t)count;
@@ -202,7 +197,7 @@ struct error *cell_blocks_fill(struct cell_blocks *cells)
         memcpy(cells->block, list + slice.begin, (size_t)cells->blocks * sizeof *list);
     free(list);
     if (!cells->block)
-        return out_of_memory();
+        return out_of_memory_for("cells");
     TRY(place_blocks(cells));
     TRY(allocate(cells));
     place_cells(cells);
@@ -281,7 +276,7 @@ static struct error *take_in(struct cell_blocks *cells, const char *packed, int3
     const size_t bytes = bytes_that_go(cells);
     struct cell_block *block = memory_allocate(((size_t)count + 1) * sizeof *block);
     if (!block)
-        return out_of_memory();
+        return out_of_memory_for("cells");
     for (int32_t b = 0; b < count; b++)
         memcpy(&block[b], packed + (size_t)b * bytes, sizeof *block);
     qsort(block, (size_t)count, sizeof *block, by_key);
@@ -302,7 +297,7 @@ static struct error *take_in(struct cell_blocks *cells, const char *packed, int3
 static struct error *divide(struct cell_blocks *cells)
 {
     struct block_weight *own = memory_allocate(((size_t)cells->blocks + 1) * sizeof *own);
-    struct error *error = ranks_agree(cells->ranks, own ? NULL : out_of_memory());
+    struct error *error = ranks_agree(cells->ranks, own ? NULL : out_of_memory_for("cells"));
     for (int32_t b = 0; b < cells->blocks && !error; b++)
         own[b] = (struct block_weight){cells->block[b].key, cells_of(&cells->block[b])};
     if (!error)
@@ -317,7 +312,8 @@ static struct error *migrate(struct cell_blocks *cells)
     const size_t bytes = bytes_that_go(cells), blocks = (size_t)cells->blocks;
     struct send_item *send = memory_allocate((blocks + 1) * sizeof *send);
     char *packed = memory_allocate((blocks + 1) * bytes);
-    struct error *error = ranks_agree(cells->ranks, send && packed ? NULL : out_of_memory());
+    struct error *error =
+        ranks_agree(cells->ranks, send && packed ? NULL : out_of_memory_for("cells"));
     void *came = NULL;
     int32_t count = 0;
     for (int32_t b = 0; b < cells->blocks && !error; b++) {

@@ -26,11 +26,6 @@ struct planning {
     bool failed;
 };
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for the cells beyond blocks");
-}
-
 /* A place along the axis outside the domain, taken into it; FILLED where a face does not say how,
  * and INSTEAD is not to be used for it. */
 struct axis_place {
@@ -177,7 +172,8 @@ static struct error *ask(struct planning *p)
     const struct wanted *asked = came;
     struct send_item *send = memory_allocate(((size_t)count + 1) * sizeof *send);
     axis->sent = memory_allocate(((size_t)count + 1) * sizeof *axis->sent);
-    struct error *error = ranks_agree(ranks, send && axis->sent ? NULL : out_of_memory());
+    struct error *error = ranks_agree(
+        ranks, send && axis->sent ? NULL : out_of_memory_for("the cells beyond blocks"));
     for (int32_t k = 0; k < count && !error; k++) {
         const struct cell_block *block = cell_block_find(p->cells, asked[k].key);
         assert(block);
@@ -218,7 +214,8 @@ static struct error *plan_axis(struct planning *p)
     p->failed = !axis->beyond || !axis->waits;
     if (!p->failed)
         find_sources(p);
-    TRY(ranks_agree(p->cells->ranks, p->failed ? out_of_memory() : NULL));
+    TRY(ranks_agree(p->cells->ranks,
+                    p->failed ? out_of_memory_for("the cells beyond blocks") : NULL));
     TRY(p->cells->ranks->joined ? ask(p) : NULL);
     int32_t *plane = memory_allocate(((size_t)p->count + 1) * sizeof *plane);
     for (int32_t k = 0; k < p->count && plane; k++)
@@ -227,7 +224,8 @@ static struct error *plan_axis(struct planning *p)
         number_planes(p, plane);
     const size_t numbers = (size_t)p->halo->numbers * (size_t)cell_plane_room(p->cells->dimension);
     axis->plane = memory_allocate(((size_t)axis->planes + 1) * numbers * sizeof(double));
-    struct error *error = plane && axis->plane ? NULL : out_of_memory();
+    struct error *error =
+        plane && axis->plane ? NULL : out_of_memory_for("the cells beyond blocks");
     free(plane);
     return ranks_agree(p->cells->ranks, error);
 }

@@ -6,9 +6,9 @@
 
 #include "base/memory.h"
 
-static struct error *out_of_memory(const struct grid *grid)
+static struct error *no_room(const struct grid *grid)
 {
-    return error_new(ERROR_SYSTEM, "out of memory for a grid of %d blocks", grid->blocks);
+    return out_of_memory_for("a grid of %d blocks", grid->blocks);
 }
 
 /* The offsets of CODE; false for one that patches do not reach. */
@@ -81,7 +81,7 @@ static struct error *find_blocks(struct grid *grid, const struct bins *bins)
     if (!memory_reserve((void **)&grid->key, &grid->block_capacity,
                         (int64_t)bins->count * GRID_AROUND, 0, sizeof *grid->key) ||
         !block_table_clear(&grid->table, (int64_t)bins->count * GRID_AROUND))
-        return out_of_memory(grid);
+        return no_room(grid);
     for (int32_t b = 0; b < bins->count; b++) {
         int64_t own[3];
         int offset[3];
@@ -98,7 +98,7 @@ static struct error *find_blocks(struct grid *grid, const struct bins *bins)
     if (grid->blocks)
         qsort(grid->key, (size_t)grid->blocks, sizeof *grid->key, compare_keys);
     if (!block_table_clear(&grid->table, grid->blocks))
-        return out_of_memory(grid);
+        return no_room(grid);
     for (int32_t n = 0; n < grid->blocks; n++)
         block_table_add(&grid->table, grid->key[n]);
     return NULL;
@@ -142,7 +142,7 @@ struct error *grid_plan(struct grid *grid, const struct bins *bins)
                         sizeof *grid->bin_key) ||
         !memory_reserve((void **)&grid->touch, &grid->touch_capacity, grid->blocks, 0,
                         sizeof *grid->touch))
-        return out_of_memory(grid);
+        return no_room(grid);
     grid->bins = bins->count;
     join(grid, bins);
     return NULL;
@@ -154,7 +154,7 @@ struct error *grid_patches_reserve(struct grid_field *field, const struct grid *
     const size_t bytes = (size_t)field->stride * sizeof(double);
     return memory_reserve((void **)&field->patch, &field->patch_capacity, patches, 0, bytes)
                ? NULL
-               : out_of_memory(grid);
+               : no_room(grid);
 }
 
 struct error *grid_field_reserve(struct grid_field *field, const struct grid *grid)
@@ -163,7 +163,7 @@ struct error *grid_field_reserve(struct grid_field *field, const struct grid *gr
     const size_t bytes = (size_t)field->stride * sizeof(double);
     return memory_reserve((void **)&field->node, &field->node_capacity, nodes, 0, bytes)
                ? grid_patches_reserve(field, grid)
-               : out_of_memory(grid);
+               : no_room(grid);
 }
 
 void grid_field_free(struct grid_field *field)

@@ -151,7 +151,7 @@ static struct error *find_places(const struct measurement *measurement, const do
         done = add_place(places, ranks, &place, cell, 2.0 * reach) &&
                (!(body < 0 || p->body[i] == body) || add_place(places, ranks, &image, cell, 0.0));
     }
-    return done ? NULL : error_new(ERROR_SYSTEM, "out of memory for a check");
+    return done ? NULL : out_of_memory_for("a check");
 }
 
 /* Brings the places where particles stood before the images. */
@@ -159,7 +159,7 @@ static struct error *sort_places(struct received *received)
 {
     received->stood = memory_allocate(((size_t)received->count + 1) * sizeof *received->stood);
     if (!received->stood)
-        return error_new(ERROR_SYSTEM, "out of memory for a check");
+        return out_of_memory_for("a check");
     for (int32_t i = 0; i < received->count; i++) {
         const struct start_place place = received->place[i];
         if (place.is_image)
@@ -234,7 +234,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
     double *field = memory_allocate(((size_t)count + 1) * sizeof *field);
     struct error *error = NULL;
     if (!start || !field)
-        error = error_new(ERROR_SYSTEM, "out of memory for a check of %d particles", (int)count);
+        error = out_of_memory_for("a check of %d particles", (int)count);
     error = ranks_agree(simulation->ranks, error);
     if (!error) {
         start_places(measurement->population, 0, count, start);

@@ -8,11 +8,6 @@
 
 enum { AT_ONCE = 64 };
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for the bands of a check");
-}
-
 static int compare_bands(const void *first, const void *second)
 {
     const struct band *a = first, *b = second;
@@ -73,7 +68,7 @@ static struct error *find_bands(const struct ranks *ranks, const struct band *ow
         qsort(place, (size_t)places, sizeof *place, compare_places);
         bool added = add_bands(bands, &room, place, places, known, width);
         free(place);
-        TRY(ranks_agree(ranks, added ? NULL : out_of_memory()));
+        TRY(ranks_agree(ranks, added ? NULL : out_of_memory_for("the bands of a check")));
         while (next < count && own[next].at - bands->band[bands->count - 1].at < width)
             next++;
     }

@@ -82,7 +82,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
     }
     free(time);
     free(pressure);
-    return made ? NULL : error_new(ERROR_SYSTEM, "out of memory for a check");
+    return made ? NULL : out_of_memory_for("a check");
 }
 
 static double expected(const struct measurement *measurement)

@@ -111,7 +111,7 @@ struct error *broken_find_plate(const struct measurement *measurement, double li
     if (!error) {
         plate->is_part = memory_allocate(((size_t)fragments.members + 1) * sizeof *plate->is_part);
         if (!plate->is_part)
-            error = error_new(ERROR_SYSTEM, "out of memory for a check of a plate");
+            error = out_of_memory_for("a check of a plate");
     }
     if (!error)
         error = connected_diameters(measurement->population, &plate->diameter);

@@ -8,10 +8,9 @@
 #include "measure/near_points.h"
 #include "model/particles/population.h"
 
-static struct error *out_of_memory(int32_t particles)
+static struct error *no_room(int32_t particles)
 {
-    return error_new(ERROR_SYSTEM, "out of memory for the connections of %d particles",
-                     (int)particles);
+    return out_of_memory_for("the connections of %d particles", (int)particles);
 }
 
 bool connected_has_diameters(const struct population *population)
@@ -28,7 +27,7 @@ struct error *connected_diameters(const struct population *population, double **
     const struct column *column = column_find(population, "diameter", &component);
     *diameter = memory_allocate(((size_t)count + 1) * sizeof **diameter);
     if (!*diameter)
-        return out_of_memory(count);
+        return no_room(count);
     column_read(population, column, 0, count, *diameter);
     return NULL;
 }
@@ -43,7 +42,7 @@ struct error *connected_failures(const struct population *population, bool **fai
         free(damage);
         free(*failed);
         *failed = NULL;
-        return out_of_memory(count);
+        return no_room(count);
     }
     for (size_t k = 0; k < COUNT_OF(names); k++) {
         int component;
@@ -222,7 +221,7 @@ struct error *connected_find(const struct ranks *ranks, const struct population 
     if (!error) {
         came = memory_allocate(((size_t)ghosts.remotes + 1) * sizeof *came);
         const bool made = search_allocate(&search, population->count, ghosts.remotes) && came;
-        error = ranks_agree(ranks, made ? NULL : out_of_memory(population->count));
+        error = ranks_agree(ranks, made ? NULL : no_room(population->count));
     }
     if (!error) {
         take_own(&search, population, diameter, failed, connection, label);

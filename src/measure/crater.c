@@ -95,7 +95,7 @@ static struct error *make_columns(const struct measurement *m, const struct brok
     const int64_t all = columns->count[0] * columns->count[1];
     columns->surface = memory_allocate((size_t)all * sizeof *columns->surface);
     if (!columns->surface)
-        return error_new(ERROR_SYSTEM, "out of memory for a check of a crater");
+        return out_of_memory_for("a check of a crater");
     for (int64_t c = 0; c < all; c++)
         columns->surface[c] = -INFINITY;
     return NULL;
@@ -202,7 +202,7 @@ static struct error *walk(struct columns *columns, double least, struct crater *
     const int64_t all = columns->count[0] * columns->count[1];
     int64_t *stack = memory_allocate((4 * (size_t)all + 1) * sizeof *stack), waiting = 0;
     if (!stack)
-        return error_new(ERROR_SYSTEM, "out of memory for a check of a crater");
+        return out_of_memory_for("a check of a crater");
     crater->open = misses(columns, 2.0 * least);
     stack[waiting++] = column_at(columns, 1, 0.0) * columns->count[0] + column_at(columns, 0, 0.0);
     while (waiting > 0 && !crater->open) {

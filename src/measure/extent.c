@@ -39,7 +39,7 @@ static struct error *find_margins(const struct measurement *measurement, double 
         parameters->edges ? column_find(measurement->population, "diameter", &component) : NULL;
     *margin = memory_allocate(((size_t)count + 1) * sizeof **margin);
     if (!*margin)
-        return error_new(ERROR_SYSTEM, "out of memory for the edges of %d particles", (int)count);
+        return out_of_memory_for("the edges of %d particles", (int)count);
     if (diameter)
         column_read_component(measurement->population, diameter, component, 0, count, *margin);
     for (int32_t i = 0; i < count; i++)

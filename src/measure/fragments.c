@@ -18,11 +18,6 @@ struct member {
     int32_t body;
 };
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for fragments");
-}
-
 static int compare_members(const void *first, const void *second)
 {
     const struct member *a = first, *b = second;
@@ -129,7 +124,7 @@ static struct error *sum_all(const struct problem *problem, struct member *membe
         *items += i == 0 || member[i].label != member[i - 1].label;
     *item = memory_allocate(((size_t)*items + 1) * sizeof **item);
     if (!*item)
-        return out_of_memory();
+        return out_of_memory_for("fragments");
     int64_t made = 0;
     for (int32_t first = 0, end; first < count; first = end) {
         for (end = first; end < count && member[end].label == member[first].label;)
@@ -170,7 +165,7 @@ static struct error *send_members(const struct ranks *ranks, const struct popula
     struct member *own = memory_allocate(room * sizeof *own);
     struct send_item *send = memory_allocate(room * sizeof *send);
     void *received = NULL;
-    struct error *error = ranks_agree(ranks, own && send ? NULL : out_of_memory());
+    struct error *error = ranks_agree(ranks, own && send ? NULL : out_of_memory_for("fragments"));
     if (!error) {
         assert(own && send);
         const int32_t sent = take_members(ranks, population, diameter, label, own, send);
@@ -227,7 +222,7 @@ static struct error *number_members(const uint64_t *label, struct fragments *fra
         memory_allocate(((size_t)fragments->members + 1) * sizeof *fragments->of_member);
     if (!known || !fragments->of_member) {
         free(known);
-        return out_of_memory();
+        return out_of_memory_for("fragments");
     }
     for (int64_t k = 0; k < fragments->count; k++)
         known[k] = (struct numbered){fragments->item[k].label, k};
@@ -276,7 +271,7 @@ struct error *fragments_find(const struct ranks *ranks, const struct population 
     bool *failed = NULL;
     *fragments = (struct fragments){.members = population->count};
     uint64_t *label = memory_allocate(((size_t)fragments->members + 1) * sizeof *label);
-    struct error *error = label ? NULL : out_of_memory();
+    struct error *error = label ? NULL : out_of_memory_for("fragments");
     if (!error)
         error = connected_diameters(population, &diameter);
     if (!error)

@@ -56,8 +56,7 @@ static struct error *average_slabs(const struct ranks *ranks, struct samples *sa
 {
     struct bands slabs = {0, NULL};
     struct band *own = memory_allocate(((size_t)samples->count + 1) * sizeof *own);
-    struct error *error =
-        ranks_agree(ranks, own ? NULL : error_new(ERROR_SYSTEM, "out of memory for a front"));
+    struct error *error = ranks_agree(ranks, own ? NULL : out_of_memory_for("a front"));
     for (int64_t i = 0; i < samples->count && !error; i++)
         own[i] = (struct band){floor(samples->at[i].at / thickness), samples->at[i].at,
                                samples->at[i].value};
@@ -72,9 +71,7 @@ static struct error *average_slabs(const struct ranks *ranks, struct samples *sa
             (struct sample){.at = slabs.band[k].first, .value = slabs.band[k].second};
     const bool lost = ranks->rank == 0 && !error && !samples->at;
     bands_free(&slabs);
-    return error ? error
-                 : ranks_agree(ranks,
-                               lost ? error_new(ERROR_SYSTEM, "out of memory for a front") : NULL);
+    return error ? error : ranks_agree(ranks, lost ? out_of_memory_for("a front") : NULL);
 }
 
 /* A front that is sought: samples stand in order as they are seen from the end where the search

@@ -226,8 +226,7 @@ struct error *samples_select(const struct population *population, const struct c
     if (!values || !samples->at) {
         free(values);
         samples_free(samples);
-        return error_new(ERROR_SYSTEM, "out of memory for the values of %d particles",
-                         (int)population->count);
+        return out_of_memory_for("the values of %d particles", (int)population->count);
     }
     column_read_component(population, column, component, 0, population->count, values);
     for (int32_t i = 0; i < population->count; i++) {

@@ -37,8 +37,7 @@ struct error *near_points_make(const double (*at)[3], int64_t count, double reac
     *near = (struct near_points){.count = count, .cell = reach};
     near->point = memory_allocate(((size_t)count + 1) * sizeof *near->point);
     if (!near->point)
-        return error_new(ERROR_SYSTEM, "out of memory for a check of %lld particles",
-                         (long long)count);
+        return out_of_memory_for("a check of %lld particles", (long long)count);
     for (int k = 0; k < 3; k++) {
         double low = INFINITY, high = -INFINITY;
         for (int64_t i = 0; i < count; i++) {

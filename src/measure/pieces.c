@@ -160,8 +160,7 @@ static struct error *find_pieces(const struct measurement *measurement, const do
     bool made = search_allocate(&search, particles->count, ghosts->remotes);
     uint64_t *told = memory_allocate(((size_t)search.count + 1) * sizeof *told);
     if (!made || !told)
-        error =
-            error_new(ERROR_SYSTEM, "out of memory for a check of %d particles", (int)search.count);
+        error = out_of_memory_for("a check of %d particles", (int)search.count);
     if (!error) {
         take_points(&search, particles, diameter, parameters->link, ghosts->remote,
                     measure_body(measurement));
@@ -187,8 +186,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
     struct ghosts ghosts = {0};
     struct error *error = NULL;
     if (!diameter)
-        error = error_new(ERROR_SYSTEM, "out of memory for a check of %d particles",
-                          (int)particles->count);
+        error = out_of_memory_for("a check of %d particles", (int)particles->count);
     error = ranks_agree(measurement->simulation->ranks, error);
     if (!error) {
         column_read(particles, column, 0, particles->count, diameter);

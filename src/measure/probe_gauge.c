@@ -28,7 +28,7 @@ static struct error *add_exact(struct probe *probe, const struct simulation_case
         return NULL;
     probe->solved = memory_allocate(class->size);
     if (!probe->solved)
-        return error_new(ERROR_SYSTEM, "out of memory for an exact solution");
+        return out_of_memory_for("an exact solution");
     struct error *error = class->solve(input->exact.value, probe->solved);
     if (error) {
         error_free(error);
@@ -158,8 +158,7 @@ static struct error *sample(struct probe *probe, const struct simulation *simula
     const int count = probe->fields->count;
     const double radius = radius_of(probe, simulation);
     struct exact_sum *sums = memory_allocate(((size_t)count + 2) * sizeof *sums);
-    TRY(ranks_agree(simulation->ranks,
-                    sums ? NULL : error_new(ERROR_SYSTEM, "out of memory for a gauge")));
+    TRY(ranks_agree(simulation->ranks, sums ? NULL : out_of_memory_for("a gauge")));
     for (int32_t i = 0; i < population->count; i++)
         if (population_has(population, i) &&
             distance_square(&gauge->at, population->position[i]) <= square(radius) &&

@@ -21,8 +21,6 @@ const struct choice probe_choices[PROBES] = {
      measure_front_table, sizeof(struct measure_front), &probe_front},
 };
 
-static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
 static const struct probe_class *class_of(const struct probe *probe)
 {
     return probe->input->probe.choice->thing;

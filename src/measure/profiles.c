@@ -11,11 +11,6 @@
 #include "base/memory.h"
 #include "shape/shape.h"
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for a profile");
-}
-
 /* A mistake at KEY of profile NAME. */
 static struct error *wrong(const struct simulation *simulation, const char *name, const char *key,
                            const char *text)
@@ -23,7 +18,7 @@ static struct error *wrong(const struct simulation *simulation, const char *name
     char *path = text_format("%s.%s", name, key);
     struct error *error =
         path ? input_error(simulation->problem->input, "profiles", path, "%s", text)
-             : out_of_memory();
+             : out_of_memory_for("a profile");
     free(path);
     return error;
 }
@@ -97,7 +92,7 @@ struct error *profiles_prepare(const struct simulation *simulation,
     *profiles = (struct profiles){
         given->count, memory_allocate(((size_t)given->count + 1) * sizeof *profiles->item)};
     if (!profiles->item)
-        return out_of_memory();
+        return out_of_memory_for("a profile");
     for (int i = 0; i < given->count; i++) {
         struct profile *profile = &profiles->item[i];
         profile->name = given->names[i];
@@ -197,7 +192,8 @@ static struct error *sort(const struct profile *profile, const struct simulation
     sorting->places = sorting->groups * sorting->bins;
     sorting->place = memory_allocate(((size_t)particles->count + 1) * sizeof *sorting->place);
     sorting->count = memory_allocate(((size_t)sorting->places + 1) * sizeof *sorting->count);
-    TRY(ranks_agree(simulation->ranks, sorting->place && sorting->count ? NULL : out_of_memory()));
+    TRY(ranks_agree(simulation->ranks,
+                    sorting->place && sorting->count ? NULL : out_of_memory_for("a profile")));
     for (int32_t i = 0; i < particles->count; i++) {
         sorting->place[i] = place_of(profile, particles, sorting, i);
         if (sorting->place[i] >= 0)
@@ -261,8 +257,8 @@ static struct error *find_all(const struct profile *profile, const struct simula
     double *value = memory_allocate(((size_t)count + 1) * sizeof *value);
     struct exact_sum *sums = memory_allocate(((size_t)sorting->places + 1) * sizeof *sums);
     double *ends = memory_allocate((2 * (size_t)sorting->places + 1) * sizeof *ends);
-    struct error *error =
-        ranks_agree(simulation->ranks, value && sums && ends ? NULL : out_of_memory());
+    struct error *error = ranks_agree(
+        simulation->ranks, value && sums && ends ? NULL : out_of_memory_for("a profile"));
     for (int i = 0; i < profile->fields.count && !error; i++) {
         const struct chosen_field *field = &profile->fields.field[i];
         column_read_component(population, &population->column[field->column], field->component, 0,
@@ -347,7 +343,7 @@ static struct error *write_one(const struct profile *profile, const struct simul
         size_t room = (size_t)profile->fields.count * (size_t)sorting.places + 1;
         scatter = memory_allocate(room * sizeof *scatter);
         error = scatter ? find_all(profile, simulation, population, &sorting, scatter)
-                        : out_of_memory();
+                        : out_of_memory_for("a profile");
     }
     error = ranks_agree(simulation->ranks, error);
     if (!error && simulation->ranks->rank == 0)
@@ -369,14 +365,15 @@ struct error *profiles_write(const struct profiles *profiles, const struct simul
     if (profiles->count == 0)
         return NULL;
     char *own = path_join(folder, "profiles");
-    struct error *error = !own                           ? out_of_memory()
+    struct error *error = !own                           ? out_of_memory_for("a profile")
                           : simulation->ranks->rank == 0 ? folder_make(own)
                                                          : NULL;
     error = ranks_agree(simulation->ranks, error);
     for (int i = 0; i < profiles->count && !error; i++) {
         char *path =
             text_format("%s/%s-%06lld.csv", own, profiles->item[i].name, (long long)number);
-        error = ranks_agree(simulation->ranks, path ? file_check_folder(path) : out_of_memory());
+        error = ranks_agree(simulation->ranks,
+                            path ? file_check_folder(path) : out_of_memory_for("a profile"));
         if (!error)
             error = ranks_agree(simulation->ranks,
                                 write_one(&profiles->item[i], simulation, population, path));

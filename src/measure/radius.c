@@ -91,8 +91,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
     double *told = memory_allocate(room * sizeof *told);
     struct error *error = NULL;
     if (!start || !told)
-        error = error_new(ERROR_SYSTEM, "out of memory for a check of %d particles",
-                          (int)measurement->population->count);
+        error = out_of_memory_for("a check of %d particles", (int)measurement->population->count);
     error = ranks_agree(simulation->ranks, error);
     if (!error) {
         start_places(measurement->population, 0, measurement->population->count, start);

@@ -373,7 +373,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
     }
     free(curve.time);
     free(curve.value);
-    return made ? NULL : error_new(ERROR_SYSTEM, "out of memory for a check");
+    return made ? NULL : out_of_memory_for("a check");
 }
 
 const struct measure_class measure_recorded = {.unit = unit, .measure = measure};

@@ -69,7 +69,7 @@ static struct error *find_rows(const struct measurement *measurement, struct ban
     struct band *own = memory_allocate(((size_t)count + 1) * sizeof *own);
     struct error *error = NULL;
     if (!start || !own)
-        error = error_new(ERROR_SYSTEM, "out of memory for a check of %d particles", (int)count);
+        error = out_of_memory_for("a check of %d particles", (int)count);
     error = ranks_agree(simulation->ranks, error);
     if (!error) {
         start_places(measurement->population, 0, count, start);

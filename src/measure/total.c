@@ -78,8 +78,7 @@ static struct error *total(const struct measurement *measurement, double *value)
         return NULL;
     }
     uint16_t *other = memory_allocate(((size_t)population.count + 1) * sizeof *other);
-    TRY(ranks_agree(measurement->simulation->ranks,
-                    other ? NULL : error_new(ERROR_SYSTEM, "out of memory for a total")));
+    TRY(ranks_agree(measurement->simulation->ranks, other ? NULL : out_of_memory_for("a total")));
     assert(other);
     for (int32_t i = 0; i < population.count; i++)
         other[i] = !measure_takes(measurement, body, i);

@@ -60,7 +60,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
     double(*start)[3] = memory_allocate(((size_t)count + 1) * sizeof *start);
     struct error *error = NULL;
     if (!start)
-        error = error_new(ERROR_SYSTEM, "out of memory for a check of %d particles", (int)count);
+        error = out_of_memory_for("a check of %d particles", (int)count);
     TRY(ranks_agree(simulation->ranks, error));
     start_places(measurement->population, 0, count, start);
     *value = angle(measurement, (const double(*)[3])start);

@@ -126,7 +126,7 @@ static struct error *measure(const struct measurement *measurement, double *valu
     double *field = memory_allocate(((size_t)count + 1) * sizeof *field), *diameter = NULL;
     struct error *error = NULL;
     if (!start || !field)
-        error = error_new(ERROR_SYSTEM, "out of memory for a check of a zone");
+        error = out_of_memory_for("a check of a zone");
     if (!error)
         error = connected_diameters(measurement->population, &diameter);
     error = ranks_agree(measurement->simulation->ranks, error);

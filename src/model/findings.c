@@ -18,8 +18,7 @@ void finding_add(struct findings *findings, enum severity severity, const char *
     char *text = text_vformat(format, arguments);
     va_end(arguments);
     findings_take(findings, severity,
-                  text ? input_error(findings->input, section, name, "%s", text)
-                       : error_new(ERROR_SYSTEM, "out of memory"));
+                  text ? input_error(findings->input, section, name, "%s", text) : out_of_memory());
     free(text);
 }
 

@@ -317,7 +317,7 @@ struct error *generate_count(const struct place *place, const struct ranks *rank
 {
     const struct simulation_case *input = place->input;
     struct finding *findings = memory_allocate((size_t)input->bodies.count * sizeof *findings);
-    TRY(ranks_agree(ranks, findings ? NULL : error_new(ERROR_SYSTEM, "out of memory")));
+    TRY(ranks_agree(ranks, findings ? NULL : out_of_memory()));
     assert(findings);
     struct error *error = explore(place, NULL, ranks, findings);
     *particles = 0;
@@ -334,7 +334,7 @@ struct error *generate_summary(const struct simulation_case *input, const struct
     const struct place whole = place_whole(input);
     struct finding *findings = memory_allocate((size_t)input->bodies.count * sizeof *findings);
     if (!findings)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     struct error *error = explore(&whole, box, &alone, findings);
     for (int body = 0; body < input->bodies.count; body++) {
         const struct finding *finding = &findings[body];

@@ -104,7 +104,7 @@ static struct error *check_doubled(const struct population *population)
 {
     const size_t count = (size_t)population->count;
     uint64_t *id = memory_allocate((count + 1) * sizeof *id);
-    struct error *error = id ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = id ? NULL : out_of_memory();
     if (id && count > 0) {
         memcpy(id, population->id, count * sizeof *id);
         qsort(id, count, sizeof *id, by_number);
@@ -136,8 +136,7 @@ struct error *simulation_check_loaded(const struct simulation *simulation)
         return error_new(ERROR_SYSTEM, "step is %lld, which no run reaches",
                          (long long)simulation->step);
     double *sites = count_sites(simulation->problem->input);
-    struct error *error =
-        sites ? check_indices(simulation, first, sites) : error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = sites ? check_indices(simulation, first, sites) : out_of_memory();
     free(sites);
     if (!error)
         error = check_doubled(&population);

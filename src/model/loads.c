@@ -82,7 +82,7 @@ static struct error *choose_elements(struct loads *loads, const struct simulatio
         return NULL;
     loads->acts[index] = memory_allocate((size_t)surface->elements * sizeof **loads->acts);
     if (!loads->acts[index])
-        return error_new(ERROR_SYSTEM, "out of memory for loads");
+        return out_of_memory_for("loads");
     for (int32_t e = 0; e < surface->elements; e++)
         loads->acts[index][e] = load_takes(load, &surface->element[e]);
     return NULL;
@@ -99,7 +99,7 @@ struct error *loads_create(const struct simulation *simulation, struct loads *lo
     loads->of = memory_allocate(count * sizeof *loads->of);
     loads->acts = memory_allocate(count * sizeof *loads->acts);
     if (!loads->surface || !loads->of || !loads->acts)
-        return error_new(ERROR_SYSTEM, "out of memory for loads");
+        return out_of_memory_for("loads");
     int32_t most = 0;
     for (int i = 0; i < loads->count; i++) {
         TRY(find_surface(loads, &simulation->problem->place, i));
@@ -108,7 +108,7 @@ struct error *loads_create(const struct simulation *simulation, struct loads *lo
         most = elements > most ? elements : most;
     }
     loads->push = memory_allocate((size_t)most * sizeof *loads->push);
-    return loads->push ? NULL : error_new(ERROR_SYSTEM, "out of memory for loads");
+    return loads->push ? NULL : out_of_memory_for("loads");
 }
 
 void loads_clear(struct loads *loads, const struct population *population)
@@ -129,7 +129,7 @@ struct error *loads_follow(struct loads *loads, const struct simulation *simulat
     }
     if (!memory_reserve((void **)&loads->force, &loads->capacity, population->count, 0,
                         sizeof *loads->force))
-        return error_new(ERROR_SYSTEM, "out of memory for loads");
+        return out_of_memory_for("loads");
     return NULL;
 }
 

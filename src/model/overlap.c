@@ -5,8 +5,6 @@
 
 #include "base/memory.h"
 
-static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
 bool bounds_meet(const struct bounds *a, const struct bounds *b)
 {
     return a->low.x <= b->high.x && b->low.x <= a->high.x && a->low.y <= b->high.y &&

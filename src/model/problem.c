@@ -19,7 +19,7 @@ struct error *input_error(const struct simulation_case *input, const char *secti
     char *path = name ? text_format("%s.%s", section, name) : text_copy(section);
     struct error *error;
     if (!text || !path)
-        error = error_new(ERROR_SYSTEM, "out of memory");
+        error = out_of_memory();
     else if (input->document)
         error = document_error(input->document, path, "%s", text);
     else
@@ -89,7 +89,7 @@ static struct error *law_table_make(struct problem *problem, struct law_table *t
     const struct simulation_case *input = problem->input;
     table->number = memory_allocate((size_t)input->bodies.count * sizeof *table->number);
     if (!table->number)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     table->count = 1;
     for (int i = 0; i < input->contacts.count; i++)
         for (int side = 0; side < 2; side++) {
@@ -99,7 +99,7 @@ static struct error *law_table_make(struct problem *problem, struct law_table *t
         }
     table->entry = memory_allocate((size_t)table->count * (size_t)table->count);
     if (!table->entry)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     struct error *error = NULL;
     for (int i = 0; i < input->contacts.count; i++) {
         const struct contact_input *contact = case_contact(input, i);
@@ -163,7 +163,7 @@ static struct error *set_contacts(struct problem *problem)
     const struct simulation_case *input = problem->input;
     problem->group_of_body = memory_allocate((size_t)input->bodies.count);
     if (!problem->group_of_body)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     struct law_table table = {0};
     struct error *error = law_table_make(problem, &table);
     if (!error)
@@ -207,7 +207,7 @@ struct error *problem_create(const struct place *place, struct problem *problem)
     TRY(check_counts(input));
     problem->material = memory_allocate((size_t)problem->materials * sizeof *problem->material);
     if (!problem->material)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     memcpy(problem->gravity, input->gravity.at, sizeof problem->gravity);
     for (int i = 0; i < input->materials.count; i++)
         problem->material[i] = *case_material(input, i)->material;

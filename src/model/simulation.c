@@ -25,8 +25,8 @@ struct error *simulation_create_at(const struct place *place, const struct ranks
         .problem = problem, .ranks = ranks, .partition = {.ranks = ranks}, .threads = threads};
     simulation->loads = place->input->loads.count;
     simulation->load = memory_allocate(loads * sizeof *simulation->load);
-    struct error *error = problem && simulation->load ? problem_create(place, problem)
-                                                      : error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error =
+        problem && simulation->load ? problem_create(place, problem) : out_of_memory();
     if (error)
         simulation_destroy(simulation);
     return error;

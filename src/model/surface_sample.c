@@ -386,10 +386,10 @@ static struct error *find_carriers(struct sampler *s, const struct overlaps *ove
     int64_t site;
     struct vec3 place;
     if (!error && !(make_cells(s, &walk.lattice) && find_others(s)))
-        error = error_new(ERROR_SYSTEM, "out of memory for the surface of a body");
+        error = out_of_memory_for("the surface of a body");
     while (!error && walk_next(&walk, &site, &place))
         if (!take_carrier(s, site, place))
-            error = error_new(ERROR_SYSTEM, "out of memory for the surface of a body");
+            error = out_of_memory_for("the surface of a body");
     walk_end(&walk);
     return error;
 }
@@ -414,7 +414,7 @@ struct error *surface_create(const struct place *place, int body, struct body_su
         for (int axis = 0; axis < s.dimension; axis++)
             surface->spacing = maximum(surface->spacing, s.spacing[axis]);
         if (s.out_of_memory || !sampler_make_surface(&s, surface))
-            error = error_new(ERROR_SYSTEM, "out of memory for the surface of a body");
+            error = out_of_memory_for("the surface of a body");
     }
     overlaps_free(&overlaps);
     free(s.other);

@@ -179,7 +179,7 @@ struct error *walk_begin(struct walk *walk, const struct overlaps *overlaps, int
 
     TRY(overlaps_rivals(overlaps, body, &walk->rivals, &walk->rival_count));
     walk->near = memory_allocate(((size_t)walk->rival_count + 1) * sizeof *walk->near);
-    return walk->near ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+    return walk->near ? NULL : out_of_memory();
 }
 
 /* A matrix may contain thousands of grains, so the sites of a row are tested only against the

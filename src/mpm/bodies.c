@@ -46,7 +46,7 @@ struct error *mpm_share_layers(struct mpm *mpm, const struct simulation *simulat
     mpm->layer_of_body = memory_allocate((size_t)input->bodies.count);
     mpm->layer_at_rest = memory_allocate((size_t)input->bodies.count);
     if (!mpm->layer_of_body || !mpm->layer_at_rest)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     for (int b = 0; b < input->bodies.count; b++) {
         const struct body_input *body = case_body(input, b);
         const bool prescribed = body->driven || body->frozen || body->stop <= 0.0;
@@ -109,7 +109,7 @@ struct error *mpm_note_bodies(struct mpm *mpm, const struct simulation *simulati
     mpm->gauge = memory_allocate((size_t)simulation->problem->materials * sizeof *mpm->gauge);
     mpm->reaction = memory_allocate((size_t)simulation->problem->materials * sizeof *mpm->reaction);
     if (!mpm->half_size || !mpm->gauge || !mpm->reaction)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     struct error *error = NULL;
     for (int m = 0; m < simulation->problem->materials; m++) {
         const struct material *material = &simulation->problem->material[m];

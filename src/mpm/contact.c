@@ -14,7 +14,7 @@ static struct error *find_meetings(struct mpm *mpm, struct layer *layer)
     const struct grid *grid = &layer->grid;
     if (!memory_reserve((void **)&layer->meets, &layer->meets_capacity, grid->blocks, 0,
                         sizeof *layer->meets))
-        return error_new(ERROR_SYSTEM, "out of memory for %d blocks", grid->blocks);
+        return out_of_memory_for("%d blocks", grid->blocks);
     for (int32_t n = 0; n < grid->blocks; n++) {
         layer->meets[n] = false;
         for (int g = 0; g < mpm->layers; g++)

@@ -13,18 +13,13 @@ struct far_bin {
     int32_t layer, rank;
 };
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for blocks of other ranks");
-}
-
 /* All bins of all ranks, by rank, layer and key. */
 static struct error *gather_bins(const struct mpm *mpm, const struct simulation *simulation,
                                  struct far_bin **all, int64_t *count)
 {
     const struct bins *bins = &mpm->bins;
     struct far_bin *own = memory_allocate((size_t)bins->count * sizeof *own);
-    TRY(ranks_agree(simulation->ranks, own ? NULL : out_of_memory()));
+    TRY(ranks_agree(simulation->ranks, own ? NULL : out_of_memory_for("blocks of other ranks")));
     for (int g = 0; g < mpm->layers; g++)
         for (int32_t b = bins->begin[g]; b < bins->begin[g + 1]; b++)
             own[b] = (struct far_bin){bins->bin[b].key, g, simulation->ranks->rank};
@@ -190,7 +185,8 @@ static struct error *plan_halo(struct mpm *mpm, const struct simulation *simulat
     if (done && m.sends > 1)
         qsort(m.send, (size_t)m.sends, sizeof *m.send, compare_sends);
     done = done && merge(mpm, &m);
-    struct error *error = ranks_agree(simulation->ranks, done ? NULL : out_of_memory());
+    struct error *error =
+        ranks_agree(simulation->ranks, done ? NULL : out_of_memory_for("blocks of other ranks"));
     if (!error)
         error = exchange_plan(&mpm->halo.exchange, simulation->ranks, m.send, m.sends);
     assert(error || mpm->halo.exchange.comes == m.fars);
@@ -240,7 +236,7 @@ struct error *mpm_reserve_halo(struct mpm *mpm)
     return memory_reserve((void **)&halo->received, &halo->received_capacity, halo->exchange.comes,
                           0, bytes)
                ? NULL
-               : out_of_memory();
+               : out_of_memory_for("blocks of other ranks");
 }
 
 /* The patch of bin BIN of the halo, in the field at byte FIELD of its layer. */

@@ -116,7 +116,7 @@ static struct error *mpm_start(void *solver, struct simulation *simulation)
     mpm->threads = simulation->threads;
     mpm->rate = memory_allocate((size_t)mpm->threads * sizeof *mpm->rate);
     if (!mpm->rate)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     if (!mpm->particles->blocks) /* as they are when loaded */
         TRY(particles_sort(mpm->particles));
     if (mpm_is_affine(mpm) && simulation->step == 0)

@@ -134,7 +134,7 @@ static struct error *collect_block(const struct mpm *mpm, struct layer *layer, b
 {
     if (!memory_reserve((void **)&layer->wall, &layer->wall_capacity, layer->walls + BLOCK_CELLS,
                         layer->walls, sizeof *layer->wall))
-        return error_new(ERROR_SYSTEM, "out of memory for %d nodes at walls", layer->walls);
+        return out_of_memory_for("%d nodes at walls", layer->walls);
     for (int k = 0; k < BLOCK_CELLS; k++) {
         struct wall_node *wall = &layer->wall[layer->walls];
         mpm_node_index(layer->grid.dimension, corner, k, wall->at);

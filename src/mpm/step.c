@@ -94,8 +94,7 @@ static struct error *reserve_rates(struct mpm *mpm)
         mpm->rate[t] = memory_allocate((size_t)wanted * RATES * sizeof(double));
         if (!mpm->rate[t]) {
             mpm->rate_capacity = 0;
-            return error_new(ERROR_SYSTEM, "out of memory for %lld particles of a block",
-                             (long long)wanted);
+            return out_of_memory_for("%lld particles of a block", (long long)wanted);
         }
     }
     mpm->rate_capacity = wanted;
@@ -113,7 +112,7 @@ static struct error *store_by_bins(struct mpm *mpm, struct simulation *simulatio
     }
     if (!memory_reserve((void **)&mpm->block, &mpm->block_capacity, bins->count, 0,
                         sizeof *mpm->block))
-        return error_new(ERROR_SYSTEM, "out of memory for %d blocks", bins->count);
+        return out_of_memory_for("%d blocks", bins->count);
     for (int32_t b = 0; b < bins->count; b++)
         mpm->block[b] =
             (struct block){bins->bin[b].key, bins->bin[b].first, bins->bin[b].cell[BLOCK_CELLS]};
@@ -179,8 +178,7 @@ static struct error *reserve_fields(struct mpm *mpm, const struct simulation *si
     for (int g = 0; g < mpm->layers; g++)
         if (!memory_reserve((void **)&mpm->layer[g].shocked, &mpm->layer[g].shocked_capacity,
                             mpm->layer[g].grid.blocks, 0, sizeof(bool)))
-            return error_new(ERROR_SYSTEM, "out of memory for %d blocks",
-                             mpm->layer[g].grid.blocks);
+            return out_of_memory_for("%d blocks", mpm->layer[g].grid.blocks);
     TRY(mpm_reserve_order(mpm));
     TRY(mpm_reserve_surfaces(mpm, simulation));
     if (mpm->layers > 1)

@@ -20,8 +20,7 @@ struct error *mpm_reserve_surfaces(struct mpm *mpm, const struct simulation *sim
                 !memory_reserve((void **)&layer->pushed[cause], &layer->pushed_capacity[cause],
                                 (int64_t)layer->grid.blocks * BLOCK_CELLS, 0,
                                 sizeof *layer->pushed[cause]))
-                return error_new(ERROR_SYSTEM, "out of memory for forces at %d blocks",
-                                 layer->grid.blocks);
+                return out_of_memory_for("forces at %d blocks", layer->grid.blocks);
         }
     return NULL;
 }

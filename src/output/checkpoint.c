@@ -271,7 +271,7 @@ static struct error *read_case(hid_t file, char **text)
     *text = memory_allocate(size + 1);
     struct error *error = NULL;
     if (!*text)
-        error = error_new(ERROR_SYSTEM, "out of memory");
+        error = out_of_memory();
     else if (!size || H5Tis_variable_str(type) ||
              H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, *text) < 0)
         error = hdf5_error(ERROR_SYSTEM, "its case is damaged");

@@ -121,7 +121,7 @@ static struct error *check_links(hid_t file, const char *name)
     struct error *error = NULL;
     for (const char *slash = strchr(name, '/'); slash && !error; slash = strchr(slash + 1, '/')) {
         char *group = text_copy_part(name, (size_t)(slash - name));
-        error = group ? check_link(file, group, name) : error_new(ERROR_SYSTEM, "out of memory");
+        error = group ? check_link(file, group, name) : out_of_memory();
         free(group);
     }
     return error ? error : check_link(file, name, name);

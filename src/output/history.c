@@ -25,7 +25,7 @@ struct error *history_open(const char *path, int64_t keep, const struct csv_mark
 {
     struct history *made = calloc(1, sizeof *made);
     char *copy = text_copy(path);
-    struct error *error = made && (copy || !path) ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = made && (copy || !path) ? NULL : out_of_memory();
     FILE *file = NULL;
     if (!error && path)
         error = csv_grow(path, keep, mark, &file);
@@ -236,8 +236,7 @@ struct error *history_row(struct history *history, const struct simulation *simu
 {
     const size_t loads = (size_t)simulation->loads;
     struct load_totals *totals = memory_allocate(loads * sizeof *totals);
-    TRY(ranks_agree(simulation->ranks,
-                    totals ? NULL : error_new(ERROR_SYSTEM, "out of memory for the history")));
+    TRY(ranks_agree(simulation->ranks, totals ? NULL : out_of_memory_for("the history")));
     const struct row row = find_row(simulation, dt, now, start, totals);
     if (history->rows++ == 0 && history->file)
         write_line(history->file, true, &row);

@@ -59,8 +59,8 @@ struct error *rows_pass(const struct ranks *ranks, const struct rows *rows, rows
     int64_t number = 0, most = (int64_t)ranks_maximum(ranks, (double)rows->count);
     void *request = memory_allocate(ranks_request_size() + 1);
     void *piece = memory_allocate((size_t)piece_from(0, most) * rows->space);
-    struct error *failure = ranks_agree(
-        ranks, request && piece ? NULL : error_new(ERROR_SYSTEM, "out of memory for an output"));
+    struct error *failure =
+        ranks_agree(ranks, request && piece ? NULL : out_of_memory_for("an output"));
     if (!failure)
         failure = ranks_gather(ranks, 0, &rows->count, 1, sizeof rows->count, &counts, &number);
     if (!failure && ranks->rank != 0)

@@ -54,7 +54,7 @@ static struct error *table_make(const struct csv *csv, struct table *table)
     if (whole)
         return NULL;
     table_free(table);
-    return error_new(ERROR_SYSTEM, "out of memory for a report");
+    return out_of_memory_for("a report");
 }
 
 static const struct column *find(const struct table *table, const char *name)
@@ -365,8 +365,8 @@ static struct error *each_probe(const struct page *page, bool plots, bool *liste
     char **names = NULL;
     int count = 0;
     char *folder = path_join(page->folder, "probes");
-    struct error *error = folder ? folder_names(folder, ".csv", &names, &count)
-                                 : error_new(ERROR_SYSTEM, "out of memory for a report");
+    struct error *error =
+        folder ? folder_names(folder, ".csv", &names, &count) : out_of_memory_for("a report");
     for (int i = 0; i < count && !error; i++) {
         struct csv csv = {0};
         struct table table = {0};

@@ -9,11 +9,6 @@
 #include "base/memory.h"
 #include "page/internal.h"
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for a report");
-}
-
 /* A folder may hold files of any size; what is larger than this does not fit on a page. */
 enum { TABLE_BYTES_MAX = 1 << 28, TEXT_BYTES_MAX = 1 << 22 };
 
@@ -21,7 +16,7 @@ struct error *page_read_table(const char *folder, const char *name, struct csv *
 {
     *csv = (struct csv){0};
     char *path = path_join(folder, name);
-    struct error *error = !path                               ? out_of_memory()
+    struct error *error = !path                               ? out_of_memory_for("a report")
                           : file_size(path) > TABLE_BYTES_MAX ? NULL
                                                               : csv_read(path, csv);
     free(path);
@@ -69,7 +64,9 @@ static struct error *put_file(const struct page *page, const char *name, const c
     char *path = path_join(page->folder, name), *text = NULL;
     size_t size;
     const bool shown = path && file_size(path) <= TEXT_BYTES_MAX;
-    struct error *error = !path ? out_of_memory() : shown ? file_read(path, &text, &size) : NULL;
+    struct error *error = !path   ? out_of_memory_for("a report")
+                          : shown ? file_read(path, &text, &size)
+                                  : NULL;
     if (path && !shown)
         fprintf(page->file, "<p class=\"note\">%s is too large to be shown here.</p>\n", name);
     if (!error && text && *text) {
@@ -138,7 +135,7 @@ static struct error *look_for_run(const char *folder)
 {
     char *path = path_join(folder, "run.log");
     if (!path)
-        return out_of_memory();
+        return out_of_memory_for("a report");
     bool there = access(path, R_OK) == 0;
     free(path);
     return there ? NULL
@@ -160,8 +157,8 @@ static struct error *read_first_run(const char *folder, struct page *page)
     TRY(page_read_table(folder, "checks.csv", &page->checks)); /* its fits */
     TRY(page_read_table(folder, "statistics.csv", &page->statistics));
     char *first = path_join(folder, csv_field(&page->sweep, 0, 0));
-    struct error *error =
-        first ? page_read_table(first, "summary.csv", &page->summary) : out_of_memory();
+    struct error *error = first ? page_read_table(first, "summary.csv", &page->summary)
+                                : out_of_memory_for("a report");
     free(first);
     return error;
 }
@@ -174,7 +171,7 @@ struct error *page_write(const char *folder)
         error = page.sweep.rows ? read_first_run(folder, &page) : read_run(folder, &page);
     char *path = path_join(folder, "report.html");
     if (!error)
-        error = path ? put_file_of_page(&page, path) : out_of_memory();
+        error = path ? put_file_of_page(&page, path) : out_of_memory_for("a report");
     free(path);
     csv_free(&page.sweep);
     csv_free(&page.statistics);

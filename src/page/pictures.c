@@ -27,11 +27,6 @@ struct pictures {
     char *folder;
 };
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for a report");
-}
-
 static bool starts(const char *text, const char *start)
 {
     return !strncmp(text, start, strlen(start));
@@ -81,10 +76,10 @@ static struct error *pictures_find(const char *folder, struct pictures *pictures
     *pictures = (struct pictures){.folder = path_join(folder, "pictures")};
     struct error *error = pictures->folder ? folder_names(pictures->folder, ".png",
                                                           &pictures->names, &pictures->count)
-                                           : out_of_memory();
+                                           : out_of_memory_for("a report");
     if (!error) {
         pictures->item = memory_allocate((size_t)pictures->count * sizeof *pictures->item);
-        error = pictures->item ? NULL : out_of_memory();
+        error = pictures->item ? NULL : out_of_memory_for("a report");
     }
     if (error) {
         pictures_free(pictures);
@@ -103,7 +98,7 @@ static struct error *read_picture(const struct pictures *pictures, const struct 
     *bytes = NULL;
     *size = 0;
     char *path = path_join(pictures->folder, picture->name);
-    struct error *error = !path                               ? out_of_memory()
+    struct error *error = !path                               ? out_of_memory_for("a report")
                           : file_size(path) > FRAME_BYTES_MAX ? NULL
                                                               : file_read(path, bytes, size);
     free(path);
@@ -190,7 +185,7 @@ static struct error *put_player(const struct page *page, const struct pictures *
     int shown = (int)minimum(count, maximum(2.0, minimum(part * count, FRAMES_MAX)));
     char *field = text_copy_part(frames->name, (size_t)frames->field_length);
     if (!field)
-        return out_of_memory();
+        return out_of_memory_for("a report");
     fputs("<div class=\"player\" data-name=\"", page->file);
     page_text(page->file, field);
     fputs("\"><h3>", page->file);
@@ -259,7 +254,7 @@ static struct error *put_single(const struct page *page, const struct pictures *
         page_text(page->file, name);
         fputs("</figcaption></figure>\n", page->file);
     }
-    struct error *error = name ? NULL : out_of_memory();
+    struct error *error = name ? NULL : out_of_memory_for("a report");
     free(name);
     free(bytes);
     return error;

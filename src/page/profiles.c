@@ -64,8 +64,7 @@ static struct error *plot_field(const struct page *page, const struct csv *csv, 
     struct part part = next_part(csv, named, 0);
     const int64_t count = part.count;
     double *numbers = memory_allocate((size_t)(csv->rows * LINES + count + 1) * sizeof *numbers);
-    struct error *error =
-        whole && numbers ? NULL : error_new(ERROR_SYSTEM, "out of memory for a report");
+    struct error *error = whole && numbers ? NULL : out_of_memory_for("a report");
     if (!error) {
         snprintf(axis, sizeof axis, "%.1s", csv_head(csv, named));
         struct page_plot plot = {.title = whole,
@@ -91,8 +90,8 @@ static struct error *plot_profile(const struct page *page, const char *folder, c
 {
     struct csv csv = {0};
     char *title = text_copy_part(file, strlen(file) - strlen("-000000.csv"));
-    struct error *error = title ? page_read_table(folder, file, &csv)
-                                : error_new(ERROR_SYSTEM, "out of memory for a report");
+    struct error *error =
+        title ? page_read_table(folder, file, &csv) : out_of_memory_for("a report");
     bool named = !strcmp(csv_head(&csv, 0), "material") || !strcmp(csv_head(&csv, 0), "body");
     for (int i = 0; i < csv.columns && csv.rows && !error; i++)
         error = plot_field(page, &csv, title, named, i);
@@ -113,8 +112,8 @@ struct error *page_profiles(const struct page *page)
     char **names = NULL;
     int count = 0;
     char *folder = path_join(page->folder, "profiles");
-    struct error *error = folder ? folder_names(folder, ".csv", &names, &count)
-                                 : error_new(ERROR_SYSTEM, "out of memory for a report");
+    struct error *error =
+        folder ? folder_names(folder, ".csv", &names, &count) : out_of_memory_for("a report");
     if (!error && count)
         fputs("<section id=\"profiles\"><h2>Profiles at the end</h2>\n<div class=\"plots\">\n",
               page->file);

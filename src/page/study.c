@@ -10,11 +10,6 @@
 #include "page/internal.h"
 #include "picture/picture.h"
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for a convergence study");
-}
-
 /* A column's head in quotes: `"pressure left error [Pa]"`. */
 static void put_head(FILE *file, const char *name, const char *what, const char *unit)
 {
@@ -93,7 +88,7 @@ static struct error *write_table(const char *folder, const char *name, const str
 {
     FILE *file;
     char *path = path_join(folder, name);
-    struct error *error = path ? file_begin(path, &file) : out_of_memory();
+    struct error *error = path ? file_begin(path, &file) : out_of_memory_for("a convergence study");
     if (!error) {
         put(file, study);
         error = file_end(path, file);
@@ -154,7 +149,7 @@ static struct error *draw(const char *path, const struct study *study)
     double *x = memory_allocate((runs + 4) * sizeof *x);
     double *y = memory_allocate((points + 4) * sizeof *y);
     struct series *series = memory_allocate((size_t)(study->quantities + 2) * sizeof *series);
-    struct error *error = x && y && series ? NULL : out_of_memory();
+    struct error *error = x && y && series ? NULL : out_of_memory_for("a convergence study");
     if (!error) {
         double lowest = fill_errors(study, x, y, series);
         fill_slopes(study, lowest, x + runs, y + points, series + study->quantities);
@@ -181,7 +176,7 @@ struct error *study_write(const char *folder, const struct study *study)
     TRY(write_table(folder, "convergence.csv", study, put_runs));
     TRY(write_table(folder, "convergence-orders.csv", study, put_orders));
     char *path = path_join(folder, "convergence.png");
-    struct error *error = path ? draw(path, study) : out_of_memory();
+    struct error *error = path ? draw(path, study) : out_of_memory_for("a convergence study");
     free(path);
     return error ? error : page_study(folder, study);
 }

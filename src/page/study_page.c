@@ -6,11 +6,6 @@
 #include "page/internal.h"
 #include "page/study.h"
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for a report");
-}
-
 static void put_header(FILE *file, const struct study *study)
 {
     fputs("<header><h1>", file);
@@ -242,7 +237,8 @@ struct error *page_study(const char *folder, const struct study *study)
     char *picture = path_join(folder, "convergence.png"), *bytes = NULL;
     char *path = path_join(folder, "convergence.html");
     size_t size;
-    struct error *error = path && picture ? file_read(picture, &bytes, &size) : out_of_memory();
+    struct error *error =
+        path && picture ? file_read(picture, &bytes, &size) : out_of_memory_for("a report");
     if (!error)
         error = file_begin(path, &page.file);
     if (!error) {

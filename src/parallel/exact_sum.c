@@ -114,7 +114,7 @@ struct error *exact_sums_visit(struct exact_sum *sums, int count, const char *na
 {
     int64_t(*rows)[SUM_NUMBERS] = memory_allocate((size_t)count * sizeof *rows);
     if (!rows)
-        return error_new(ERROR_SYSTEM, "out of memory for %s", name);
+        return out_of_memory_for("%s", name);
     for (int i = 0; i < count; i++) {
         memcpy(rows[i], sums[i].digit, sizeof sums[i].digit);
         rows[i][EXACT_SUM_DIGITS] = sums[i].pending;

@@ -6,11 +6,6 @@
 
 #include "base/memory.h"
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for an exchange between ranks");
-}
-
 /* Sorts ERRANDS by rank; TO counts those of each. */
 static void sort_items(struct exchange *x, int ranks, const struct send_item *sends, int32_t count,
                        const int32_t *to, int32_t *next)
@@ -56,7 +51,7 @@ static struct error *plan(struct exchange *x, const struct ranks *ranks,
     x->message = memory_allocate((size_t)partners * sizeof *x->message);
     x->requests = memory_allocate((size_t)partners * ranks_request_size());
     if (!x->send || !x->message || !x->requests)
-        return out_of_memory();
+        return out_of_memory_for("an exchange between ranks");
     sort_items(x, ranks->size, sends, count, to, next);
     add_messages(x, ranks->size, from, true);
     add_messages(x, ranks->size, to, false);
@@ -68,7 +63,7 @@ struct error *exchange_plan(struct exchange *exchange, const struct ranks *ranks
 {
     exchange_free(exchange);
     int32_t *counts = memory_allocate(3 * (size_t)ranks->size * sizeof *counts);
-    TRY(ranks_agree(ranks, counts ? NULL : out_of_memory()));
+    TRY(ranks_agree(ranks, counts ? NULL : out_of_memory_for("an exchange between ranks")));
     struct error *error = plan(exchange, ranks, sends, count, counts);
     free(counts);
     return ranks_agree(ranks, error);
@@ -79,7 +74,7 @@ struct error *exchange_reserve(struct exchange *exchange, size_t bytes)
     int64_t needed = (int64_t)exchange->goes * (int64_t)bytes;
     return memory_reserve(&exchange->buffer, &exchange->buffer_bytes, needed, 0, 1)
                ? NULL
-               : out_of_memory();
+               : out_of_memory_for("an exchange between ranks");
 }
 
 void exchange_start(struct exchange *exchange, const void *items, size_t bytes, void *received)
@@ -108,7 +103,8 @@ static struct error *pass(struct exchange *exchange, const struct ranks *ranks, 
                           size_t bytes, void **received)
 {
     *received = memory_allocate((size_t)exchange->comes * bytes);
-    TRY(ranks_agree(ranks, *received ? exchange_reserve(exchange, bytes) : out_of_memory()));
+    TRY(ranks_agree(ranks, *received ? exchange_reserve(exchange, bytes)
+                                     : out_of_memory_for("an exchange between ranks")));
     exchange_start(exchange, items, bytes, *received);
     exchange_finish(exchange);
     return NULL;
@@ -124,7 +120,7 @@ struct error *exchange_once(const struct ranks *ranks, const struct send_item *s
         for (int32_t k = 0; k < count && copy; k++)
             memcpy(copy + (size_t)k * bytes, (const char *)items + (size_t)sends[k].item * bytes,
                    bytes);
-        return copy ? NULL : out_of_memory();
+        return copy ? NULL : out_of_memory_for("an exchange between ranks");
     }
     struct exchange exchange = {0};
     struct error *error = exchange_plan(&exchange, ranks, sends, count);

@@ -134,8 +134,7 @@ struct error *ghosts_plan(struct near_walls walls, int32_t count, const double (
                              (struct places){(const double *)ghosts->remote, stride, count,
                                              ghosts->remotes},
                              threads, ghosts);
-    return room ? NULL
-                : error_new(ERROR_SYSTEM, "out of memory for the images of %d particles", count);
+    return room ? NULL : out_of_memory_for("the images of %d particles", count);
 }
 
 void ghosts_start(struct ghosts *ghosts, double *record, int32_t owned, size_t bytes)

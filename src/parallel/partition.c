@@ -84,8 +84,8 @@ struct error *partition_divide(struct partition *partition, struct block_weight 
     if (!partition->cut)
         partition->cut = memory_allocate(((size_t)ranks->size + 1) * sizeof *partition->cut);
     TRY(ranks_agree(ranks, partition->cut ? NULL
-                                          : error_new(ERROR_SYSTEM, "out of memory for the blocks "
-                                                                    "of the ranks")));
+                                          : out_of_memory_for("the blocks "
+                                                              "of the ranks")));
     TRY(ranks_gather(ranks, -1, own, count, sizeof *own, (void **)&all, &blocks));
     cut_curve(partition->cut, ranks->size, all, blocks);
     free(all);

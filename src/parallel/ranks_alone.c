@@ -79,7 +79,7 @@ struct error *ranks_gather(const struct ranks *ranks, int to, const void *own, i
     *total = count;
     *all = memory_allocate((size_t)count * bytes);
     if (!*all)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     if (count)
         memcpy(*all, own, (size_t)count * bytes);
     return NULL;

@@ -174,8 +174,7 @@ static struct error *gather(const struct ranks *ranks, struct gathering g, const
     *all = memory_allocate((size_t)*total * g.bytes + 1);
     struct error *error = NULL;
     if (!*all)
-        error =
-            error_new(ERROR_SYSTEM, "out of memory for %lld items of all ranks", (long long)sum);
+        error = out_of_memory_for("%lld items of all ranks", (long long)sum);
     else if (sum > INT32_MAX)
         error = error_new(ERROR_SYSTEM, "%lld items are too many for one rank", (long long)sum);
     TRY(ranks_agree(ranks, error));
@@ -194,15 +193,14 @@ struct error *ranks_gather(const struct ranks *ranks, int to, const void *own, i
         *total = count;
         *all = memory_allocate((size_t)count * bytes + 1);
         if (!*all)
-            return error_new(ERROR_SYSTEM, "out of memory");
+            return out_of_memory();
         if (count)
             memcpy(*all, own, (size_t)count * bytes);
         return NULL;
     }
     int *counts = memory_allocate((size_t)ranks->size * sizeof *counts);
     int *places = memory_allocate((size_t)ranks->size * sizeof *places);
-    struct error *error =
-        ranks_agree(ranks, counts && places ? NULL : error_new(ERROR_SYSTEM, "out of memory"));
+    struct error *error = ranks_agree(ranks, counts && places ? NULL : out_of_memory());
     if (!error) {
         MPI_Datatype type = items_of(bytes);
         const struct gathering gathering = {to, type, bytes, counts, places};

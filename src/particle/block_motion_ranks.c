@@ -5,10 +5,7 @@
 #include "parallel/block.h"
 #include "particle/block_motion.h"
 
-struct error *motion_out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for the motion of blocks");
-}
+struct error *motion_out_of_memory(void) { return out_of_memory_for("the motion of blocks"); }
 
 bool motion_key_beside(int dimension, const int64_t own[3], int k, uint64_t *key)
 {

@@ -6,16 +6,12 @@
 #include "parallel/exchange.h"
 #include "particle/particles.h"
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory while particles go to other ranks");
-}
-
 /* Divides the blocks as the particles lie now. */
 static struct error *divide(struct particles *p)
 {
     struct block_weight *own = memory_allocate((size_t)p->blocks * sizeof *own);
-    struct error *error = ranks_agree(p->ranks, own ? NULL : out_of_memory());
+    struct error *error =
+        ranks_agree(p->ranks, own ? NULL : out_of_memory_for("particles that go to other ranks"));
     for (int32_t b = 0; b < p->blocks && !error; b++)
         own[b] = (struct block_weight){p->block[b].key, p->block[b].count};
     if (!error)
@@ -75,7 +71,7 @@ static struct error *find_leaving(struct particles *p, struct leaving *leaving)
             continue;
         if (!memory_reserve((void **)&leaving->send, &leaving->capacity, leaving->count + 1,
                             leaving->count, sizeof *leaving->send))
-            return out_of_memory();
+            return out_of_memory_for("particles that go to other ranks");
         leaving->send[leaving->count++] = (struct send_item){owner, i};
     }
     return NULL;
@@ -106,7 +102,8 @@ static struct error *send_some(struct particles *p, struct exchange *exchange,
     TRY(exchange_plan(exchange, p->ranks, leaving->send + leaving->sent, some));
     char *coming = memory_allocate((size_t)exchange->comes * bytes);
     struct error *error =
-        ranks_agree(p->ranks, coming ? exchange_reserve(exchange, bytes) : out_of_memory());
+        ranks_agree(p->ranks, coming ? exchange_reserve(exchange, bytes)
+                                     : out_of_memory_for("particles that go to other ranks"));
     if (!error) {
         for (int32_t k = 0; k < exchange->goes; k++)
             pack(p, exchange->send[k].item, (char *)exchange->buffer + (size_t)k * bytes);

@@ -17,11 +17,6 @@ struct list {
     int32_t count;
 };
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for the particles of other ranks");
-}
-
 static struct region empty_region(void)
 {
     return (struct region){.low = {INFINITY, INFINITY, INFINITY},
@@ -127,7 +122,7 @@ static struct error *find_send_items(const struct particles *p, struct seen seen
 {
     const struct region **near = memory_allocate(2 * (size_t)halo->regions * sizeof *near);
     if (!near)
-        return out_of_memory();
+        return out_of_memory_for("the particles of other ranks");
     int64_t candidates = 0;
     for (int64_t k = 0; k < halo->regions && p->count; k++)
         if (halo->region[k].rank != p->ranks->rank &&
@@ -143,7 +138,7 @@ static struct error *find_send_items(const struct particles *p, struct seen seen
         done = add_block(p, &p->block[b], seen, of_block, count, list);
     }
     free(near);
-    return done ? NULL : out_of_memory();
+    return done ? NULL : out_of_memory_for("the particles of other ranks");
 }
 
 /* Tells the others what the particles are that they must see, and learns the same of theirs. */
@@ -152,8 +147,8 @@ static struct error *introduce(const struct particles *p, struct reach reach, st
     struct remote *own = memory_allocate((size_t)p->count * sizeof *own);
     free(ghosts->remote);
     ghosts->remote = memory_allocate((size_t)ghosts->exchange.comes * sizeof *ghosts->remote);
-    struct error *error =
-        own && ghosts->remote ? exchange_reserve(&ghosts->exchange, sizeof *own) : out_of_memory();
+    struct error *error = own && ghosts->remote ? exchange_reserve(&ghosts->exchange, sizeof *own)
+                                                : out_of_memory_for("the particles of other ranks");
     error = ranks_agree(p->ranks, error);
     for (int32_t i = 0; i < p->count && !error; i++) {
         const double *x = p->position[i];
@@ -177,7 +172,8 @@ struct error *halo_plan(const struct particles *particles, const struct mirrors 
     if (!ranks->joined)
         return NULL;
     struct region whole, *own = own_regions(particles, reach, skin, &whole);
-    struct error *error = ranks_agree(ranks, own ? NULL : out_of_memory());
+    struct error *error =
+        ranks_agree(ranks, own ? NULL : out_of_memory_for("the particles of other ranks"));
     if (!error)
         error = ranks_gather(ranks, -1, own, particles->blocks, sizeof *own, (void **)&halo->region,
                              &halo->regions);

@@ -40,9 +40,9 @@ struct workspace {
     struct segment segment; /* a copy: those of the threads lie in one line of the cache */
 };
 
-static struct error *out_of_memory(const struct particles *p)
+static struct error *no_room(const struct particles *p)
 {
-    return error_new(ERROR_SYSTEM, "out of memory for the neighbours of %d particles", p->count);
+    return out_of_memory_for("the neighbours of %d particles", p->count);
 }
 
 static double largest_reach(const struct particles *p, struct reach reach, int threads)
@@ -123,7 +123,7 @@ static struct error *make_cells(struct build *b, int32_t count, int threads)
     struct scratch *scratch = &b->p->scratch;
     const size_t ranks = (size_t)count * sizeof *b->rank;
     if (!scratch_begin(scratch, ranks + cells_bytes(count)))
-        return out_of_memory(b->p);
+        return no_room(b->p);
     b->rank = scratch_part(scratch, ranks);
     const size_t used = scratch->used;
     struct keyed *entry = scratch_part(scratch, (size_t)count * sizeof *entry);
@@ -289,7 +289,7 @@ static struct error *build_rows(struct build *b, int threads)
         b->n->segment[thread] = w.segment;
         workspace_free(&w);
     }
-    return failed ? out_of_memory(b->p) : NULL;
+    return failed ? no_room(b->p) : NULL;
 }
 
 static struct error *reserve(struct neighbours *n, const struct particles *p, int threads)
@@ -297,7 +297,7 @@ static struct error *reserve(struct neighbours *n, const struct particles *p, in
     if (n->segments < threads) {
         struct segment *segment = memory_allocate((size_t)threads * sizeof *segment);
         if (!segment)
-            return out_of_memory(p);
+            return no_room(p);
         if (n->segments)
             memcpy(segment, n->segment, (size_t)n->segments * sizeof *segment);
         free(n->segment);
@@ -305,10 +305,10 @@ static struct error *reserve(struct neighbours *n, const struct particles *p, in
         n->segments = threads;
     }
     if (!memory_reserve((void **)&n->row, &n->row_capacity, p->count, 0, sizeof *n->row))
-        return out_of_memory(p);
+        return no_room(p);
     if (p->ranks->joined &&
         !memory_reserve((void **)&n->outer, &n->outer_capacity, p->blocks, 0, 1))
-        return out_of_memory(p);
+        return no_room(p);
     n->count = p->count;
     return NULL;
 }

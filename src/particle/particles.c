@@ -88,7 +88,7 @@ static struct error *particles_reserve(struct particles *particles, int64_t need
         struct field *field = &particles->field[k];
         capacity = particles->capacity;
         if (!memory_reserve(&field->data, &capacity, needed, kept, field_bytes(field)))
-            return error_new(ERROR_SYSTEM, "out of memory for %lld particles", (long long)needed);
+            return out_of_memory_for("%lld particles", (long long)needed);
     }
     particles->capacity = capacity;
     bind_core(particles);

@@ -55,7 +55,7 @@ static struct error *find_blocks(struct particles *p, struct sorting *s)
     radix_sort(s->entry, s->spare, runs, *p->threads);
     runs = radix_runs(s->entry, runs, *p->threads, s->room.run);
     if (!memory_reserve((void **)&p->block, &p->block_capacity, runs, 0, sizeof *p->block))
-        return error_new(ERROR_SYSTEM, "out of memory for %d blocks", runs);
+        return out_of_memory_for("%d blocks", runs);
     for (int32_t b = 0; b < runs; b++)
         p->block[b] = (struct block){s->room.run[b].key, 0, 0};
     p->blocks = runs;
@@ -214,8 +214,7 @@ struct error *particles_sort(struct particles *particles)
     const size_t count = (size_t)particles->count;
     particles->order++;
     if (!scratch_begin(&particles->scratch, count * particles_sort_bytes()))
-        return error_new(ERROR_SYSTEM, "out of memory while sorting %d particles",
-                         particles->count);
+        return out_of_memory_for("sorting %d particles", particles->count);
     s.entry = scratch_part(&particles->scratch, count * sizeof *s.entry);
     s.spare = scratch_part(&particles->scratch, count * sizeof *s.spare);
     s.room.slice = scratch_part(&particles->scratch, count * SLICE);
@@ -235,7 +234,7 @@ struct error *particles_arrange(struct particles *particles, const int32_t *list
     const size_t count = (size_t)p->count;
     if (!scratch_begin(&p->scratch, count * (sizeof *s.entry + SLICE)) ||
         !memory_reserve((void **)&p->block, &p->block_capacity, blocks, 0, sizeof *p->block))
-        return error_new(ERROR_SYSTEM, "out of memory while sorting %d particles", p->count);
+        return out_of_memory_for("sorting %d particles", p->count);
     s.entry = scratch_part(&p->scratch, count * sizeof *s.entry);
     s.room.slice = scratch_part(&p->scratch, count * SLICE);
 #pragma omp parallel for schedule(static) num_threads(*p->threads)

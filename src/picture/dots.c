@@ -17,11 +17,6 @@ static const double square_factor = 1.3, disc_factor = 1.05;
 /* Cells touch; their places are rounded to floats. */
 static const double cell_factor = 1.001;
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "picture: out of memory");
-}
-
 struct rows {
     int first, end;
 };
@@ -81,7 +76,7 @@ static struct error *find_send_items(const struct ranks *ranks, const struct dot
             if (cut[rank] == cut[rank + 1])
                 continue;
             if (!memory_reserve((void **)sends, &room, *count + 1, *count, sizeof **sends))
-                return out_of_memory();
+                return out_of_memory_for("a picture");
             (*sends)[(*count)++] = (struct send_item){rank, (int32_t)i};
         }
     }
@@ -97,7 +92,7 @@ static struct error *pass_dots(const struct ranks *ranks, struct dots *dots,
     struct send_item *sends = NULL;
     int32_t goes = 0, comes;
     void *received;
-    struct error *error = ranks_agree(ranks, cut && count ? NULL : out_of_memory());
+    struct error *error = ranks_agree(ranks, cut && count ? NULL : out_of_memory_for("a picture"));
     if (!error) {
         deal_rows(ranks, dots, viewport, count, cut);
         *first = cut[ranks->rank];
@@ -169,7 +164,7 @@ struct error *dots_paint(const struct ranks *ranks, struct dots *dots,
     const size_t size = (size_t)(end - first) * bytes;
     uint32_t *own = memory_allocate(size);
     struct keyed *order = sort_dots(dots);
-    struct error *error = ranks_agree(ranks, own && order ? NULL : out_of_memory());
+    struct error *error = ranks_agree(ranks, own && order ? NULL : out_of_memory_for("a picture"));
     if (!error) {
         memset(own, 0xff, size); /* white */
         const struct pixels pixels = {.data = own,

@@ -151,7 +151,7 @@ static struct error *category_entries(const struct dots *dots, const struct rank
     static const struct legend_entry more = {MARK_NONE, {0.0, 0.0, 0.0}, "and others"};
     const int categories = dots->values.low <= dots->values.high ? (int)dots->values.high + 1 : 0;
     double *present = memory_allocate(((size_t)categories + 1) * sizeof *present);
-    TRY(ranks_agree(ranks, present ? NULL : error_new(ERROR_SYSTEM, "picture: out of memory")));
+    TRY(ranks_agree(ranks, present ? NULL : out_of_memory_for("a picture")));
     for (int64_t i = 0; i < dots->count; ++i)
         present[(int)dots->dot[i].value] = 1.0;
     ranks_maximum_of(ranks, present, categories);
@@ -363,7 +363,7 @@ static struct error *draw_line_problem(const char *path, const struct simulation
     for (int k = 0; k < shows; k++)
         count += shown[k].population->count;
     if (!scatter_allocate(&scatter, count))
-        error = error_new(ERROR_SYSTEM, "picture: out of memory");
+        error = out_of_memory_for("a picture");
     count = 0;
     for (int k = 0; k < shows && !error; k++) {
         const struct population *particles = shown[k].population;

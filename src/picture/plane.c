@@ -136,13 +136,13 @@ struct error *dots_take(const struct shown *shown, const struct plane *plane, st
     if (plane->normal < 0 &&
         !memory_reserve((void **)&dots->dot, &dots->capacity, dots->count + population->count,
                         dots->count, sizeof *dots->dot))
-        return error_new(ERROR_SYSTEM, "picture: out of memory");
+        return out_of_memory_for("a picture");
     for (int64_t begin = 0; begin < population->count; begin += SLICE) {
         int64_t end = begin + SLICE < population->count ? begin + SLICE : population->count;
         shown_read(shown, begin, end, values);
         for (int64_t i = begin; i < end; ++i)
             if (!take_one(population, plane, i, values[i - begin], dots))
-                return error_new(ERROR_SYSTEM, "picture: out of memory");
+                return out_of_memory_for("a picture");
     }
     return NULL;
 }

@@ -213,7 +213,7 @@ static struct error *draw_series(const struct canvas *canvas, const struct plot 
         if (taken)
             draw_dots(canvas, x, y, series, taken);
         else
-            error = error_new(ERROR_SYSTEM, "picture: out of memory");
+            error = out_of_memory_for("a picture");
         free(taken);
     }
     cairo_restore(canvas->pen);

@@ -14,11 +14,6 @@ struct drawn_point {
     double x, y;
 };
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "picture: out of memory");
-}
-
 static int compare_points(const void *first, const void *second)
 {
     const struct drawn_point *a = first, *b = second;
@@ -74,7 +69,7 @@ struct error *scatter_gather(const struct ranks *ranks, struct scatter *scatter)
     y = range_of_all(ranks, y);
     int64_t count;
     struct drawn_point *all = NULL, *own = take_points(scatter, x, y, &count);
-    struct error *error = ranks_agree(ranks, own ? NULL : out_of_memory());
+    struct error *error = ranks_agree(ranks, own ? NULL : out_of_memory_for("a picture"));
     if (!error)
         error = ranks_gather(ranks, 0, own, count, sizeof *own, (void **)&all, &count);
     free(own);
@@ -87,7 +82,7 @@ struct error *scatter_gather(const struct ranks *ranks, struct scatter *scatter)
                 scatter->y[k] = all[k].y;
             }
         else
-            error = out_of_memory();
+            error = out_of_memory_for("a picture");
     }
     free(all);
     return ranks_agree(ranks, error);

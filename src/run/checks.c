@@ -154,7 +154,7 @@ static struct error *solve_exact(struct checks *checks, struct prepared_check *p
     checks->solved_bytes += m->exact->size;
     prepared->solved = memory_allocate(m->exact->size);
     if (!prepared->solved)
-        return error_new(ERROR_SYSTEM, "out of memory for an exact solution");
+        return out_of_memory_for("an exact solution");
     m->solved = prepared->solved;
     return located(m, m->exact->solve(against->value, prepared->solved));
 }
@@ -251,7 +251,7 @@ struct error *checks_prepare(const struct simulation *simulation,
     if (!checks || !items) {
         free(checks);
         free(items);
-        return error_new(ERROR_SYSTEM, "out of memory for checks");
+        return out_of_memory_for("checks");
     }
     *checks = (struct checks){input->checks.count, items, 0};
     struct error *error = NULL;
@@ -409,7 +409,7 @@ static struct error *judge(const struct prepared_check *prepared, const struct c
     if ((class_of(check)->needs_exact || takes_expected(&prepared->measurement)) && !result->source)
         result->source =
             text_format("exact solution %s", against_of(&prepared->measurement)->choice->name);
-    return result->name ? NULL : error_new(ERROR_SYSTEM, "out of memory for checks");
+    return result->name ? NULL : out_of_memory_for("checks");
 }
 
 void check_results_count(struct check_results *results)
@@ -429,7 +429,7 @@ struct error *checks_evaluate(const struct checks *checks, const struct check_mo
     *results = (struct check_results){0};
     results->item = memory_allocate(((size_t)checks->count + 1) * sizeof *results->item);
     if (!results->item)
-        return error_new(ERROR_SYSTEM, "out of memory for checks");
+        return out_of_memory_for("checks");
     for (int i = 0; i < checks->count; i++)
         if (isnan(checks->item[i].measurement.check->at))
             TRY(measure_now(&checks->item[i], moment, &moment->memory[i]));

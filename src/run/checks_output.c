@@ -169,7 +169,7 @@ static struct error *draw(const struct measurement *m, const struct scatter *par
                             .own_folder = true};
         error = picture_plot(path, &plot);
     } else
-        error = error_new(ERROR_SYSTEM, "out of memory for a picture");
+        error = out_of_memory_for("a picture");
     scatter_free(&curve);
     return error;
 }
@@ -187,7 +187,7 @@ static struct error *take_dots(const struct measurement *m, struct scatter *dots
         dots->y[i] = samples.at[i].value;
     }
     samples_free(&samples);
-    TRY(ranks_agree(ranks, made ? NULL : error_new(ERROR_SYSTEM, "out of memory for a picture")));
+    TRY(ranks_agree(ranks, made ? NULL : out_of_memory_for("a picture")));
     return scatter_gather(ranks, dots);
 }
 
@@ -206,8 +206,7 @@ static struct error *draw_field(const struct measurement *measurement, const cha
     struct error *error = take_dots(&m, &dots);
     if (!error && dots.count > 1) {
         char *path = path_join(folder, name);
-        error = path ? draw(&m, &dots, unit, path)
-                     : error_new(ERROR_SYSTEM, "out of memory for a picture");
+        error = path ? draw(&m, &dots, unit, path) : out_of_memory_for("a picture");
         free(path);
     }
     scatter_free(&dots);
@@ -254,8 +253,7 @@ struct error *checks_draw(const struct checks *checks, const struct simulation *
             continue;
         char *name = checks_picture(checks, i);
         struct error *error =
-            ranks_agree(simulation->ranks,
-                        name ? NULL : error_new(ERROR_SYSTEM, "out of memory for a picture"));
+            ranks_agree(simulation->ranks, name ? NULL : out_of_memory_for("a picture"));
         if (!error)
             error = draw_field(&m, folder, name);
         free(name);

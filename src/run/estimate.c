@@ -134,7 +134,7 @@ static struct error *estimate_with(const struct simulation_case *input, struct e
         class->count(input->solver.value, input, &counted);
     struct error *error = estimate->body && estimate->material_mass && summary
                               ? generate_summary(input, class->count ? &counted.box : NULL, summary)
-                              : error_new(ERROR_SYSTEM, "out of memory");
+                              : out_of_memory();
     error = error_join(error, found);
     for (int i = 0; i < bodies && !error; i++) {
         estimate->body[i].summary = summary[i];

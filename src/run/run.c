@@ -175,11 +175,11 @@ static struct error *make_solver(struct run *run)
     run->method = run->input->solver.choice->thing;
     run->solver = memory_allocate(run->method->size);
     if (!run->solver)
-        return error_new(ERROR_SYSTEM, "out of memory for the solver");
+        return out_of_memory_for("the solver");
     run->judgement = judge_solver(&run->simulation);
     run->warnings = warnings_create(&run->simulation, &run->judgement);
     if (!run->warnings)
-        return error_new(ERROR_SYSTEM, "out of memory for warnings");
+        return out_of_memory_for("warnings");
     TRY(probes_create(run->input, &run->probes));
     TRY(findings_refusal(&run->judgement.findings));
     return run->method->create(run->solver, &run->simulation, run->input->solver.value);
@@ -389,7 +389,7 @@ struct error *run_case(const struct simulation_case *input, const struct run_opt
 {
     struct run *run = run_new(input, options, result);
     if (!run)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     struct error *error = run_through(run);
     const bool local = is_local_error(run, error);
     error = run_close_files(run, error);
@@ -409,7 +409,7 @@ struct error *run_validate(const struct simulation_case *input)
     struct run_result result;
     struct run *run = run_new(input, &options, &result);
     if (!run)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     struct error *error = make_solver(run);
     if (!error)
         error = look_ahead(run);

@@ -9,8 +9,6 @@
 #include "output/snapshot.h"
 #include "run/run_internal.h"
 
-static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
 /* Shows what the run loop keeps beside the state. */
 static struct error *visit_extra(void *context, struct visitor *visitor)
 {

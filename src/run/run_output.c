@@ -14,8 +14,6 @@
 #include "picture/picture.h"
 #include "run/run_internal.h"
 
-static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
 char *run_path(const struct run *run, const char *name)
 {
     return run->options->output ? path_join(run->options->output, name) : NULL;

@@ -229,12 +229,12 @@ static struct error *write_summary(const struct run *run, const char *status,
     char *path = run_path(run, "summary.csv"), *text = NULL;
     size_t size;
     FILE *memory = open_memstream(&text, &size);
-    struct error *failure = path && memory ? NULL : error_new(ERROR_SYSTEM, "out of memory");
+    struct error *failure = path && memory ? NULL : out_of_memory();
     failure = ranks_agree(&run->ranks, failure);
     if (!failure)
         put_summary(memory, run, status, error);
     if (memory && fclose(memory) && !failure)
-        failure = error_new(ERROR_SYSTEM, "out of memory");
+        failure = out_of_memory();
     if (!failure && run_writes(run)) {
         failure = file_begin(path, &file);
         if (!failure) {

@@ -351,7 +351,7 @@ static struct error *report_new(const struct warnings *w, const struct simulatio
 {
     char *text = warning_line(w, simulation, k);
     if (!text)
-        return error_new(ERROR_SYSTEM, "out of memory for a warning");
+        return out_of_memory_for("a warning");
     tell->tell(tell->context, text);
     free(text);
     return NULL;
@@ -363,8 +363,7 @@ static struct error *take_found(struct warnings *w, const struct simulation *sim
                                 const struct tell *tell)
 {
     int64_t *counts = calloc((size_t)w->of_energy, sizeof *counts);
-    TRY(ranks_agree(simulation->ranks,
-                    counts ? NULL : error_new(ERROR_SYSTEM, "out of memory for warnings")));
+    TRY(ranks_agree(simulation->ranks, counts ? NULL : out_of_memory_for("warnings")));
     for (int k = 0; k < w->of_energy; k++)
         counts[k] = found[k].count;
     ranks_sum_of(simulation->ranks, counts, w->of_energy);
@@ -396,8 +395,8 @@ struct error *warnings_watch(struct warnings *w, const struct simulation *simula
     struct found *found = calloc((size_t)w->of_energy, sizeof *found);
     const bool followed = tension_follow(w, simulation, p);
     const bool done = found && followed && search(w, simulation, p, found, w->of_energy);
-    struct error *error = ranks_agree(
-        simulation->ranks, done ? NULL : error_new(ERROR_SYSTEM, "out of memory for warnings"));
+    struct error *error =
+        ranks_agree(simulation->ranks, done ? NULL : out_of_memory_for("warnings"));
     if (!error)
         error = take_found(w, simulation, p, found, &teller);
     free(found);

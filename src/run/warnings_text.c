@@ -326,7 +326,7 @@ struct error *warnings_conclude(const struct warnings *warnings,
             done = add(warnings, simulation, k, results);
     done = done && add_found(findings, FINDING_COARSE, WARNING_COARSE, results) &&
            add_found(findings, FINDING_NO_EFFECT, WARNING_INPUT, results);
-    return done ? NULL : error_new(ERROR_SYSTEM, "out of memory for warnings");
+    return done ? NULL : out_of_memory_for("warnings");
 }
 
 void warning_results_free(struct warning_results *results)

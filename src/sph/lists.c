@@ -20,8 +20,7 @@ static struct error *reserve_records(struct sph *sph)
     if (!scratch_begin(scratch, bytes) ||
         (sph->places && !memory_reserve((void **)&sph->place, &sph->place_capacity, count, 0,
                                         PLACE_STRIDE * sizeof(double))))
-        return error_new(ERROR_SYSTEM, "out of memory for the records of %lld particles",
-                         (long long)count);
+        return out_of_memory_for("the records of %lld particles", (long long)count);
     sph->record = scratch_part(scratch, bytes);
     return exchange_reserve(&sph->neighbours.ghosts.exchange, sph->stride * sizeof(double));
 }

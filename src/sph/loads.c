@@ -14,8 +14,7 @@ struct error *sph_create_loads(struct sph *sph, const struct simulation *simulat
     if (simulation->problem->input->loads.count == 0)
         return NULL;
     sph->loads = memory_allocate(sizeof *sph->loads);
-    return sph->loads ? loads_create(simulation, sph->loads)
-                      : error_new(ERROR_SYSTEM, "out of memory for loads");
+    return sph->loads ? loads_create(simulation, sph->loads) : out_of_memory_for("loads");
 }
 
 void sph_free_loads(struct sph *sph)

@@ -145,7 +145,7 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
                                 sph_has_laws(simulation) ? CONTACT_GROUPS : 1};
     sph->state = calloc(1, sph->scheme->state_size);
     if (!sph->state)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     TRY(sph->scheme->create(sph, simulation));
     TRY(conduction_create(sph, simulation));
     TRY(sph_create_loads(sph, simulation));

@@ -7,11 +7,6 @@
 #include "base/file.h"
 #include "base/memory.h"
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for a convergence study");
-}
-
 static bool is_among(const struct name_list *list, const char *name)
 {
     for (int i = 0; i < list->count; i++)
@@ -79,7 +74,7 @@ static struct error *make_quantity(const struct simulation_case *input, int inde
         quantity->exact = check->is.value;
     return quantity->name && quantity->measured && quantity->error && quantity->order
                ? NULL
-               : out_of_memory();
+               : out_of_memory_for("a convergence study");
 }
 
 static struct error *make_quantities(const struct simulation_case *input, int runs,
@@ -90,7 +85,7 @@ static struct error *make_quantities(const struct simulation_case *input, int ru
     study->title = text_copy(input->title ? input->title : input->name);
     study->vary = text_copy(input->convergence.vary);
     if (!study->quantity || !study->run || !study->title || !study->vary)
-        return out_of_memory();
+        return out_of_memory_for("a convergence study");
     for (int i = 0; i < input->checks.count; i++)
         if (is_studied(input, i))
             TRY(make_quantity(input, i, runs, &study->quantity[study->quantities++]));
@@ -135,7 +130,7 @@ static struct error *check_runs(const char *path, const struct verify_options *o
 {
     struct case_options reading = options->reading;
     struct simulation_case **input = memory_allocate((size_t)runs * sizeof(*input));
-    struct error *error = input ? NULL : out_of_memory();
+    struct error *error = input ? NULL : out_of_memory_for("a convergence study");
     for (int i = 0; i < runs && input; i++) {
         reading.sweep_run = i + 1;
         error = error_join(error, case_read(path, &reading, options->catalogue, &input[i]));
@@ -202,7 +197,7 @@ static struct error *take_runs(const struct verify_case *item, int count, struct
 {
     double *resolution = memory_allocate((size_t)count * sizeof *resolution);
     if (!resolution)
-        return out_of_memory();
+        return out_of_memory_for("a convergence study");
     struct error *error = NULL;
     for (int i = 0; i < count; i++) {
         const char *slash = strrchr(item[i].name, '/');
@@ -212,7 +207,7 @@ static struct error *take_runs(const struct verify_case *item, int count, struct
                                            item[i].result.particles, !item[i].error};
         study->runs++;
         if (!study->run[i].name)
-            error = out_of_memory();
+            error = out_of_memory_for("a convergence study");
     }
     for (int k = 0; k < study->quantities; k++) {
         struct study_quantity *quantity = &study->quantity[k];
@@ -249,7 +244,7 @@ static struct error *judge(const struct simulation_case *input, struct study_qua
                         : result.verdict == CHECK_PASSED ? STUDY_PASSED
                                                          : STUDY_KNOWN_DEVIATION;
     quantity->verdict_text = check_verdict_text(&result);
-    return quantity->verdict_text ? NULL : out_of_memory();
+    return quantity->verdict_text ? NULL : out_of_memory_for("a convergence study");
 }
 
 /* Judges all orders; ERROR_CHECK when some fail. */
@@ -277,8 +272,8 @@ static struct error *run_study(const struct simulation_case *input, const char *
     TRY(check_runs(path, options, runs));
     struct verify_result result = {0};
     char *inside = folder ? path_join(folder, "convergence") : NULL;
-    struct error *error =
-        inside || !folder ? verify_case(path, name, inside, options, &result) : out_of_memory();
+    struct error *error = inside || !folder ? verify_case(path, name, inside, options, &result)
+                                            : out_of_memory_for("a convergence study");
     const bool whole =
         runs > 0 && result.count == runs && !(options->running.stop && *options->running.stop);
     if (whole) {

@@ -95,7 +95,7 @@ static struct error *evaluate(const struct fit_input *fit, const char *name,
                                     .measured = isfinite(measured) ? measured : NAN,
                                     .time = NAN};
     if (!result->name)
-        return error_new(ERROR_SYSTEM, "out of memory for fits");
+        return out_of_memory_for("fits");
     dimension_text(dimension, result->unit);
     if (points->count > 0)
         TRY(check_find_limits(&fit->check, fit_take_name(fit), dimension, &result->wanted,
@@ -116,9 +116,7 @@ struct error *fits_evaluate(const struct simulation_case *input, const struct ve
                             .y = memory_allocate(places * sizeof(double))};
     *results = (struct check_results){0};
     results->item = memory_allocate(((size_t)input->fits.count + 1) * sizeof *results->item);
-    struct error *error = points.x && points.y && results->item
-                              ? NULL
-                              : error_new(ERROR_SYSTEM, "out of memory for fits");
+    struct error *error = points.x && points.y && results->item ? NULL : out_of_memory_for("fits");
     for (int i = 0; i < input->fits.count && !error; i++) {
         error = evaluate(case_fit(input, i), input->fits.names[i], runs, count, &points,
                          &results->item[i]);

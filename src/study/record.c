@@ -11,21 +11,16 @@
 #include "base/memory.h"
 #include "case/record.h"
 
-static struct error *out_of_memory(void)
-{
-    return error_new(ERROR_SYSTEM, "out of memory for a record");
-}
-
 struct error *record_check(const char *path)
 {
     char *file = record_path(path);
     if (!file)
-        return out_of_memory();
+        return out_of_memory_for("a record");
     char *slash = strrchr(file, '/');
     const size_t length = slash ? (size_t)(slash - file) : 0;
     char *folder = slash ? text_copy_part(file, length ? length : 1) : text_copy(".");
     struct error *error =
-        !folder ? out_of_memory()
+        !folder ? out_of_memory_for("a record")
         : access(folder, W_OK) != 0
             ? error_new(ERROR_SYSTEM,
                         "%s: the record cannot be written here: %s; copy the case "
@@ -167,8 +162,8 @@ struct error *record_store(const char *path, const char *name, const struct case
         return NULL;
     char *file = record_path(path), *settings = settings_text(reading);
     const struct record_key key = {runs[0].form, settings, ""};
-    struct error *error =
-        file && settings ? write_record(file, name, &key, runs, count) : out_of_memory();
+    struct error *error = file && settings ? write_record(file, name, &key, runs, count)
+                                           : out_of_memory_for("a record");
     free(settings);
     free(file);
     return error;
@@ -250,7 +245,8 @@ struct error *record_compare(const char *path, const char *name, const struct ca
     struct csv record = {0};
     int differing = 0;
     int64_t rows = 0, matched = 0;
-    struct error *error = file && settings ? record_read(file, &record) : out_of_memory();
+    struct error *error =
+        file && settings ? record_read(file, &record) : out_of_memory_for("a record");
     if (!error) {
         for (int64_t row = 0; row < record.rows; row++)
             rows += record_is_of(&record, row, &key);

@@ -11,8 +11,6 @@
 /* Bisections at most: more would divide what rounding leaves. */
 enum { BISECTIONS_MOST = 40 };
 
-static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
 /* A search in progress. */
 struct bisection {
     const char *path, *name, *folder;

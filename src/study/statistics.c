@@ -165,7 +165,7 @@ struct error *repetitions_write(const struct repetitions *repetitions, const cha
     const struct check_results *checks = sweep_checks(repetitions->runs, repetitions->count);
     FILE *file;
     char *path = path_join(folder, statistics_table_name);
-    struct error *error = path ? file_begin(path, &file) : error_new(ERROR_SYSTEM, "out of memory");
+    struct error *error = path ? file_begin(path, &file) : out_of_memory();
     if (!error) {
         put_heads(file, repetitions, checks);
         for (int run = 0; run < repetitions->count; run++)

@@ -14,8 +14,6 @@
 
 const char sweep_table_name[] = "sweep.csv";
 
-static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
 const char *sweep_unit(const struct verify_case *runs, int count, int index, char *buffer)
 {
     const struct quantity *first = &runs[0].sweep[index].quantity;

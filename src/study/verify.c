@@ -13,8 +13,6 @@
 #include "study/record.h"
 #include "study/sweep.h"
 
-static struct error *out_of_memory(void) { return error_new(ERROR_SYSTEM, "out of memory"); }
-
 /* True where a component of PATH says where something is and not what it is called. */
 static bool has_dots(const char *path)
 {

@@ -60,7 +60,7 @@ struct error *particles_add(struct simulation *simulation, double cell,
     struct particles *particles = memory_allocate(sizeof *particles);
     *made = particles;
     if (!particles)
-        return error_new(ERROR_SYSTEM, "out of memory");
+        return out_of_memory();
     TRY(particles_create(simulation->problem->dimension, cell, more, count, particles));
     simulation_add_population(simulation, "particles", &particle_population, particles);
     if (!simulation->ranks) /* no run */

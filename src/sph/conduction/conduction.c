@@ -72,8 +72,7 @@ struct error *conduction_reserve(struct sph *sph)
     int64_t count = (int64_t)sph->particles->count + sph->neighbours.ghosts.count + 1;
     if (!memory_reserve((void **)&sph->conduction.record, &sph->conduction.capacity, count, 0,
                         HEAT_STRIDE * sizeof(double)))
-        return error_new(ERROR_SYSTEM, "out of memory for the heat of %lld particles",
-                         (long long)count);
+        return out_of_memory_for("the heat of %lld particles", (long long)count);
     return exchange_reserve(&sph->neighbours.ghosts.exchange, HEAT_STRIDE * sizeof(double));
 }
 
