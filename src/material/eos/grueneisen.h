@@ -218,4 +218,41 @@ BOLIDE_INLINE struct heat_curve eos_expanded_curve(const struct eos_edge *edge,
     return curve;
 }
 
+/* Defines MODEL_edge(), eos_MODEL_beyond() and eos_MODEL_curve() of a MODEL with the functions
+ * MODEL_end(), the largest density of the form of its source, MODEL_adiabat() and MODEL_weight(),
+ * p_H and h, and MODEL_curve(), the curve of temperatures of that form. THERMAL_SLOPE is dG/drho,
+ * of EOS. */
+#define GRUENEISEN_CONTINUED(model, thermal_slope)                                                 \
+    BOLIDE_INLINE struct eos_edge model##_edge(const struct eos_##model *eos)                      \
+    {                                                                                              \
+        const double none[POINT_HISTORY] = {0.0};                                                  \
+        const double density = grueneisen_tension() * eos->density;                                \
+        return eos_edge_of(eos->density, density, eos_##model(eos, density, 0.0, none),            \
+                           thermal_slope);                                                         \
+    }                                                                                              \
+    BOLIDE_INLINE struct eos_value eos_##model##_beyond(const struct eos_##model *eos,             \
+                                                        double density, double energy)             \
+    {                                                                                              \
+        if (density < eos->density) {                                                              \
+            const struct eos_edge edge = model##_edge(eos);                                        \
+            return eos_expanded(&edge, density, energy);                                           \
+        }                                                                                          \
+        return grueneisen_compressed(eos->density, density, energy, model##_adiabat(eos, density), \
+                                     model##_weight(eos, density));                                \
+    }                                                                                              \
+    EOS_ADIABAT_CURVE(model##_curve_on, model, model##_adiabat, model##_weight)                    \
+    BOLIDE_INLINE struct heat_curve eos_##model##_curve(const struct eos_##model *eos,             \
+                                                        const struct heat *heat, double density)   \
+    {                                                                                              \
+        const struct eos_edge edge = model##_edge(eos);                                            \
+        const double end = model##_end(eos);                                                       \
+        if (eos->form == EOS_SOURCE || (density >= edge.density && density <= end))                \
+            return model##_curve(eos, heat, density);                                              \
+        if (density > end)                                                                         \
+            return model##_curve_on(eos, heat->capacity, model##_curve(eos, heat, end), end,       \
+                                    density);                                                      \
+        return eos_expanded_curve(&edge, model##_curve(eos, heat, edge.density), density,          \
+                                  heat->capacity);                                                 \
+    }
+
 #endif

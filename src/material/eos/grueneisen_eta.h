@@ -65,12 +65,6 @@ BOLIDE_INLINE struct eos_value eos_grueneisen_eta(const struct eos_grueneisen_et
     return value;
 }
 
-BOLIDE_INLINE struct eos_edge grueneisen_eta_edge(const struct eos_grueneisen_eta *solid)
-{
-    const double none[POINT_HISTORY] = {0.0}, density = grueneisen_tension() * solid->density;
-    return eos_edge_of(solid->density, density, eos_grueneisen_eta(solid, density, 0.0, none), 0.0);
-}
-
 /* The largest density of the source's form, p_H and h, see grueneisen.h. */
 BOLIDE_INLINE double grueneisen_eta_end(const struct eos_grueneisen_eta *solid)
 {
@@ -90,18 +84,6 @@ BOLIDE_INLINE struct eos_curve_point grueneisen_eta_weight(const struct eos_grue
     const struct eos_curve_point h = {1.0 - 0.5 * solid->gamma * (1.0 - solid->density / density),
                                       -0.5 * solid->gamma * solid->density / square(density)};
     return grueneisen_weight(h, grueneisen_product_weight());
-}
-
-BOLIDE_INLINE struct eos_value eos_grueneisen_eta_beyond(const struct eos_grueneisen_eta *solid,
-                                                         double density, double energy)
-{
-    if (density < solid->density) {
-        const struct eos_edge edge = grueneisen_eta_edge(solid);
-        return eos_expanded(&edge, density, energy);
-    }
-    return grueneisen_compressed(solid->density, density, energy,
-                                 grueneisen_eta_adiabat(solid, density),
-                                 grueneisen_eta_weight(solid, density));
 }
 
 BOLIDE_INLINE struct eos_traits eos_grueneisen_eta_traits(const struct eos_grueneisen_eta *solid)
@@ -138,21 +120,6 @@ BOLIDE_INLINE struct heat_curve grueneisen_eta_curve(const struct eos_grueneisen
     return curve;
 }
 
-EOS_ADIABAT_CURVE(grueneisen_eta_curve_on, grueneisen_eta, grueneisen_eta_adiabat,
-                  grueneisen_eta_weight)
-
-BOLIDE_INLINE struct heat_curve eos_grueneisen_eta_curve(const struct eos_grueneisen_eta *solid,
-                                                         const struct heat *heat, double density)
-{
-    const struct eos_edge edge = grueneisen_eta_edge(solid);
-    const double end = grueneisen_eta_end(solid);
-    if (solid->form == EOS_SOURCE || (density >= edge.density && density <= end))
-        return grueneisen_eta_curve(solid, heat, density);
-    if (density > end)
-        return grueneisen_eta_curve_on(solid, heat->capacity,
-                                       grueneisen_eta_curve(solid, heat, end), end, density);
-    return eos_expanded_curve(&edge, grueneisen_eta_curve(solid, heat, edge.density), density,
-                              heat->capacity);
-}
+GRUENEISEN_CONTINUED(grueneisen_eta, 0.0)
 
 #endif

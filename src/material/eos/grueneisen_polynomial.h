@@ -57,15 +57,12 @@ BOLIDE_INLINE struct eos_value eos_grueneisen_polynomial(
     return value;
 }
 
-BOLIDE_INLINE struct eos_edge grueneisen_polynomial_edge(
-    const struct eos_grueneisen_polynomial *solid)
+/* The largest density of the source's form, p_H in compression and h, see grueneisen.h. */
+BOLIDE_INLINE double grueneisen_polynomial_end(const struct eos_grueneisen_polynomial *solid)
 {
-    const double none[POINT_HISTORY] = {0.0}, density = grueneisen_tension() * solid->density;
-    return eos_edge_of(solid->density, density,
-                       eos_grueneisen_polynomial(solid, density, 0.0, none), solid->gamma);
+    return solid->density * (1.0 + 2.0 * (1.0 - grueneisen_gamma_weight()) / solid->gamma);
 }
 
-/* p_H in compression, and h, see grueneisen.h. */
 BOLIDE_INLINE struct eos_curve_point grueneisen_polynomial_adiabat(
     const struct eos_grueneisen_polynomial *solid, double density)
 {
@@ -82,18 +79,6 @@ BOLIDE_INLINE struct eos_curve_point grueneisen_polynomial_weight(
     const struct eos_curve_point h = {1.0 - 0.5 * solid->gamma * (density / solid->density - 1.0),
                                       -0.5 * solid->gamma / solid->density};
     return grueneisen_weight(h, grueneisen_gamma_weight());
-}
-
-BOLIDE_INLINE struct eos_value eos_grueneisen_polynomial_beyond(
-    const struct eos_grueneisen_polynomial *solid, double density, double energy)
-{
-    if (density < solid->density) {
-        const struct eos_edge edge = grueneisen_polynomial_edge(solid);
-        return eos_expanded(&edge, density, energy);
-    }
-    return grueneisen_compressed(solid->density, density, energy,
-                                 grueneisen_polynomial_adiabat(solid, density),
-                                 grueneisen_polynomial_weight(solid, density));
 }
 
 BOLIDE_INLINE struct eos_traits eos_grueneisen_polynomial_traits(
@@ -130,22 +115,6 @@ BOLIDE_INLINE struct heat_curve grueneisen_polynomial_curve(
     return curve;
 }
 
-EOS_ADIABAT_CURVE(grueneisen_polynomial_curve_on, grueneisen_polynomial,
-                  grueneisen_polynomial_adiabat, grueneisen_polynomial_weight)
-
-BOLIDE_INLINE struct heat_curve eos_grueneisen_polynomial_curve(
-    const struct eos_grueneisen_polynomial *solid, const struct heat *heat, double density)
-{
-    const struct eos_edge edge = grueneisen_polynomial_edge(solid);
-    const double end =
-        solid->density * (1.0 + 2.0 * (1.0 - grueneisen_gamma_weight()) / solid->gamma);
-    if (solid->form == EOS_SOURCE || (density >= edge.density && density <= end))
-        return grueneisen_polynomial_curve(solid, heat, density);
-    if (density > end)
-        return grueneisen_polynomial_curve_on(
-            solid, heat->capacity, grueneisen_polynomial_curve(solid, heat, end), end, density);
-    return eos_expanded_curve(&edge, grueneisen_polynomial_curve(solid, heat, edge.density),
-                              density, heat->capacity);
-}
+GRUENEISEN_CONTINUED(grueneisen_polynomial, eos->gamma)
 
 #endif

@@ -78,13 +78,6 @@ BOLIDE_INLINE struct eos_value eos_mie_grueneisen(const struct eos_mie_grueneise
     return value;
 }
 
-BOLIDE_INLINE struct eos_edge mie_grueneisen_edge(const struct eos_mie_grueneisen *solid)
-{
-    const double none[POINT_HISTORY] = {0.0}, density = grueneisen_tension() * solid->density;
-    return eos_edge_of(solid->density, density, eos_mie_grueneisen(solid, density, 0.0, none),
-                       solid->gamma);
-}
-
 /* The largest density of the source's form, p_H and h, see grueneisen.h. */
 BOLIDE_INLINE double mie_grueneisen_end(const struct eos_mie_grueneisen *solid)
 {
@@ -93,8 +86,8 @@ BOLIDE_INLINE double mie_grueneisen_end(const struct eos_mie_grueneisen *solid)
            minimum(1.0 + weight, 1.0 / (1.0 - grueneisen_largest_strain(solid->slope)));
 }
 
-BOLIDE_INLINE struct eos_curve_point mie_grueneisen_adiabat_pressure(
-    const struct eos_mie_grueneisen *solid, double density)
+BOLIDE_INLINE struct eos_curve_point mie_grueneisen_adiabat(const struct eos_mie_grueneisen *solid,
+                                                            double density)
 {
     return grueneisen_linear_adiabat(solid->density, solid->sound, solid->slope, density);
 }
@@ -105,18 +98,6 @@ BOLIDE_INLINE struct eos_curve_point mie_grueneisen_weight(const struct eos_mie_
     const struct eos_curve_point h = {1.0 - 0.5 * solid->gamma * (density / solid->density - 1.0),
                                       -0.5 * solid->gamma / solid->density};
     return grueneisen_weight(h, grueneisen_gamma_weight());
-}
-
-BOLIDE_INLINE struct eos_value eos_mie_grueneisen_beyond(const struct eos_mie_grueneisen *solid,
-                                                         double density, double energy)
-{
-    if (density < solid->density) {
-        const struct eos_edge edge = mie_grueneisen_edge(solid);
-        return eos_expanded(&edge, density, energy);
-    }
-    return grueneisen_compressed(solid->density, density, energy,
-                                 mie_grueneisen_adiabat_pressure(solid, density),
-                                 mie_grueneisen_weight(solid, density));
 }
 
 BOLIDE_INLINE struct eos_traits eos_mie_grueneisen_traits(const struct eos_mie_grueneisen *solid)
@@ -135,8 +116,9 @@ BOLIDE_INLINE struct eos_traits eos_mie_grueneisen_traits(const struct eos_mie_g
  *
  * and with e^u = 1/(1 - S_a y) the integral that of (1 - y)^gamma (e^u - 1)^2/S_a^3 over u: as
  * smooth near the largest compression as anywhere, so that six Gauss-Legendre points serve. */
-BOLIDE_INLINE double mie_grueneisen_adiabat(const struct heat *heat,
-                                            const struct eos_mie_grueneisen *solid, double eta)
+BOLIDE_INLINE double mie_grueneisen_adiabat_temperature(const struct heat *heat,
+                                                        const struct eos_mie_grueneisen *solid,
+                                                        double eta)
 {
     /* The adiabat is held beyond its largest compression, as the equation of state holds it. */
     double end = -logarithm(maximum(1.0 - solid->slope * eta, 1e-3)), integral = 0.0;
@@ -164,26 +146,11 @@ BOLIDE_INLINE struct heat_curve mie_grueneisen_curve(const struct eos_mie_gruene
         return curve;
     }
     double reach = maximum(1.0 - solid->slope * eta, 1e-3);
-    curve.temperature = mie_grueneisen_adiabat(heat, solid, eta);
+    curve.temperature = mie_grueneisen_adiabat_temperature(heat, solid, eta);
     curve.energy = 0.5 * square(solid->sound * eta / reach);
     return curve;
 }
 
-EOS_ADIABAT_CURVE(mie_grueneisen_curve_on, mie_grueneisen, mie_grueneisen_adiabat_pressure,
-                  mie_grueneisen_weight)
-
-BOLIDE_INLINE struct heat_curve eos_mie_grueneisen_curve(const struct eos_mie_grueneisen *solid,
-                                                         const struct heat *heat, double density)
-{
-    const struct eos_edge edge = mie_grueneisen_edge(solid);
-    const double end = mie_grueneisen_end(solid);
-    if (solid->form == EOS_SOURCE || (density >= edge.density && density <= end))
-        return mie_grueneisen_curve(solid, heat, density);
-    if (density > end)
-        return mie_grueneisen_curve_on(solid, heat->capacity,
-                                       mie_grueneisen_curve(solid, heat, end), end, density);
-    return eos_expanded_curve(&edge, mie_grueneisen_curve(solid, heat, edge.density), density,
-                              heat->capacity);
-}
+GRUENEISEN_CONTINUED(mie_grueneisen, eos->gamma)
 
 #endif
