@@ -6,6 +6,7 @@
 #include "output/report.h"
 #include "run/catalogue.h"
 #include "run/run.h"
+#include "study/verify.h"
 
 enum { EXIT_OK = 0, EXIT_USAGE = ERROR_INPUT };
 
@@ -69,6 +70,25 @@ bool print_curves(const struct material *material);
 /* detonations.c: after BEFORE, the detonation that follows from the constants of MATERIAL, its
  * states after BETWEEN; false where it is no explosive. */
 bool print_detonation(const char *before, const char *between, const struct material *material);
+
+/* many_runs.c */
+
+/* How OPTIONS want a case to be run, into FOLDER (NULL: nothing is written); RATES is
+ * rates_path(). */
+struct run_options running_of(const struct cli_options *options, const char *folder,
+                              const struct listener *listener, const char *rates);
+
+/* What a command that runs many cases keeps meanwhile. */
+struct many_runs {
+    struct verify_options verifying;
+    struct listener listener; /* that of progress alone, on a terminal */
+    char *materials;
+};
+/* Fills MANY, which then stays where it is, and gives what verify takes, without `ended`. */
+struct verify_options *many_runs_begin(struct many_runs *many, const struct cli_options *options,
+                                       const char *folder);
+/* Reports ERROR (taken) and frees what MANY keeps. True when a signal has stopped the runs. */
+bool many_runs_end(struct many_runs *many, struct error *error, int *status);
 
 /* convergence.c */
 

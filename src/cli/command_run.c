@@ -8,28 +8,6 @@
 #include "base/results.h"
 #include "cli/cli.h"
 #include "run/forecast.h"
-#include "study/verify.h"
-
-/* RATES is rates_path(). */
-static struct run_options running_of(const struct cli_options *options, const char *folder,
-                                     const struct listener *listener, const char *rates)
-{
-    return (struct run_options){
-        .output = folder,
-        .overwrite = options->overwrite,
-        .resume = options->resume,
-        .force = options->force,
-        .ranks = options->ranks,
-        .threads = (int)options->threads,
-        .fixed_threads = options_fix_threads(),
-        .stop = signals_catch(),
-        .checkpoints = signals_checkpoints(),
-        .listener = listener,
-        .alarm = terminal_alarm,
-        .progress = terminal_pace(),
-        .rates = rates,
-    };
-}
 
 /* Adds a blank and WORD to TEXT, quoted where a shell would take it apart. */
 static void put_word(FILE *text, const char *word)
@@ -106,26 +84,21 @@ static void report_sweep(const struct listener *listener, const struct verify_re
 static int run_sweep(const struct simulation_case *input, const struct cli_options *options,
                      const char *folder)
 {
-    struct listener listener = terminal_listener();
-    char *materials = share_folder("materials"), *rates = rates_path();
-    const char *const folders[] = {materials};
-    struct verify_options verifying = {
-        .reading = case_reading(options, folders),
-        .catalogue = &bolide_catalogue,
-        .running = running_of(options, folder, &listener, rates),
-    };
+    const struct listener listener = terminal_listener();
+    char *rates = rates_path();
+    struct many_runs many;
+    struct verify_options *verifying = many_runs_begin(&many, options, folder);
+    verifying->running.listener = &listener;
+    verifying->running.rates = rates;
     struct verify_result result = {0};
     struct error *error =
-        verify_case(options->names.text[0], input->name, folder, &verifying, &result);
+        verify_case(options->names.text[0], input->name, folder, verifying, &result);
     if (result.count && result.item[0].sweep_values)
         report_sweep(&listener, &result, input->sweep_runs, folder);
-    int status = error ? report_error(error) : EXIT_OK;
-    if (*verifying.running.stop) {
+    int status;
+    if (many_runs_end(&many, error, &status))
         say_how_to_resume(&listener, options);
-        status = signals_status();
-    }
     verify_result_free(&result);
-    free(materials);
     free(rates);
     return status;
 }

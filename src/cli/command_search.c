@@ -43,47 +43,28 @@ static void print_found(const struct search *search, const struct search_result 
 static int search_case(const struct simulation_case *input, const struct search *search,
                        const struct cli_options *options)
 {
-    struct listener listener = {.progress = terminal_listener().progress};
     const char *path = options->names.text[0];
-    char *materials = share_folder("materials"), *folder = NULL;
-    const char *const folders[] = {materials};
-    struct progress_pace pace = terminal_pace();
+    char *folder = NULL;
     struct search_result result = {0};
-    struct verify_options verifying = {
-        .reading = case_reading(options, folders),
-        .catalogue = &bolide_catalogue,
-        .running = {.overwrite = options->overwrite,
-                    .force = options->force,
-                    .resume = options->resume,
-                    .ranks = options->ranks,
-                    .alarm = terminal_alarm,
-                    .threads = (int)options->threads,
-                    .fixed_threads = options_fix_threads(),
-                    .stop = signals_catch(),
-                    .checkpoints = signals_checkpoints(),
-                    .listener = pace.fraction == 0.0 ? &listener : NULL,
-                    .progress = pace},
-        .ended = run_ended,
-        .context = (void *)search,
-    };
+    struct many_runs many;
+    struct verify_options *verifying = many_runs_begin(&many, options, NULL);
+    verifying->ended = run_ended;
+    verifying->context = (void *)search;
     char *name = text_format("%s-search", input->name);
     struct error *error = name ? results_folder(options, path, name, &folder) : out_of_memory();
     if (!error)
-        error = search_run(path, input->name, folder, &verifying, search, &result);
+        error = search_run(path, input->name, folder, verifying, search, &result);
     if (result.found)
         print_found(search, &result);
     if (result.runs.count && result.runs.item[0].sweep_values)
         printf("%d runs; table in %s/sweep.csv, report: %s/report.html\n", result.runs.count,
                folder, folder);
-    int status = error ? report_error(error) : EXIT_OK;
-    if (*verifying.running.stop) {
+    int status;
+    if (many_runs_end(&many, error, &status))
         printf("continue with --resume\n");
-        status = signals_status();
-    }
     search_result_free(&result);
     free(folder);
     free(name);
-    free(materials);
     return status;
 }
 

@@ -6,7 +6,6 @@
 
 #include "base/memory.h"
 #include "cli/cli.h"
-#include "study/verify.h"
 
 struct row {
     char measured[96], allowed[96];
@@ -96,41 +95,20 @@ static void print_table(const struct verify_result *result)
 
 static int verify_paths(const char *const *paths, int count, const struct cli_options *options)
 {
-    struct listener listener = {.progress = terminal_listener().progress};
-    char *materials = share_folder("materials");
-    const char *const folders[] = {materials};
-    struct progress_pace pace = terminal_pace();
-    bool draws_over = pace.fraction == 0.0;
-    struct case_options reading = case_reading(options, folders);
-    reading.recording = options->record;
-    struct verify_options verifying = {
-        .reading = reading,
-        .catalogue = &bolide_catalogue,
-        .record = options->record,
-        .compare = options->compare,
-        .warnings_fail = true,
-        .running = {.output = options->output,
-                    .overwrite = options->overwrite,
-                    .force = options->force,
-                    .ranks = options->ranks,
-                    .alarm = terminal_alarm,
-                    .threads = (int)options->threads,
-                    .fixed_threads = options_fix_threads(),
-                    .stop = signals_catch(),
-                    .checkpoints = signals_checkpoints(),
-                    .listener = draws_over ? &listener : NULL,
-                    .progress = pace},
-        .ended = case_ended,
-    };
+    struct many_runs many;
+    struct verify_options *verifying = many_runs_begin(&many, options, options->output);
+    verifying->reading.recording = options->record;
+    verifying->record = options->record;
+    verifying->compare = options->compare;
+    verifying->warnings_fail = true;
+    verifying->ended = case_ended;
     struct verify_result result;
-    struct error *error = verify_cases(paths, count, &verifying, &result);
+    struct error *error = verify_cases(paths, count, verifying, &result);
     if (result.checks || result.warnings)
         print_table(&result);
-    int status = error ? report_error(error) : EXIT_OK;
-    if (*verifying.running.stop)
-        status = signals_status();
+    int status;
+    many_runs_end(&many, error, &status);
     verify_result_free(&result);
-    free(materials);
     return status;
 }
 

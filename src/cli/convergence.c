@@ -165,38 +165,21 @@ static struct error *study_case(const char *path, const struct verify_options *v
 int verify_convergence(const char *const *paths, int count, bool of_all,
                        const struct cli_options *options)
 {
-    struct listener listener = {.progress = terminal_listener().progress};
-    char *materials = share_folder("materials");
-    const char *const folders[] = {materials};
-    struct progress_pace pace = terminal_pace();
-    struct verify_options verifying = {
-        .reading = case_reading(options, folders),
-        .catalogue = &bolide_catalogue,
-        .running = {.overwrite = true,
-                    .force = options->force,
-                    .ranks = options->ranks,
-                    .alarm = terminal_alarm,
-                    .threads = (int)options->threads,
-                    .fixed_threads = options_fix_threads(),
-                    .stop = signals_catch(),
-                    .checkpoints = signals_checkpoints(),
-                    .listener = pace.fraction == 0.0 ? &listener : NULL,
-                    .progress = pace},
-        .ended = run_ended,
-    };
+    struct many_runs many;
+    struct verify_options *verifying = many_runs_begin(&many, options, NULL);
+    verifying->running.overwrite = true;
+    verifying->ended = run_ended;
     struct error *error = NULL;
-    for (int i = 0; i < count && !verify_stop_requested(&verifying); i++) {
+    for (int i = 0; i < count && !verify_stop_requested(verifying); i++) {
         struct simulation_case *input = NULL;
         struct error *wrong = ranks_agree(
-            options->ranks, case_read(paths[i], &verifying.reading, &bolide_catalogue, &input));
+            options->ranks, case_read(paths[i], &verifying->reading, &bolide_catalogue, &input));
         if (!wrong && (!of_all || document_has(input->document, "convergence")))
-            wrong = study_case(paths[i], &verifying, input, options);
+            wrong = study_case(paths[i], verifying, input, options);
         error = error_join(error, wrong);
         case_free(input);
     }
-    int status = error ? report_error(error) : EXIT_OK;
-    if (*verifying.running.stop)
-        status = signals_status();
-    free(materials);
+    int status;
+    many_runs_end(&many, error, &status);
     return status;
 }
