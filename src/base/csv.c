@@ -141,11 +141,6 @@ void csv_put_number(FILE *file, double value)
     fputs(text, file);
 }
 
-static struct error *system_error(const char *path, int number)
-{
-    return error_new(ERROR_SYSTEM, "%s: %s", path, number ? strerror(number) : "cannot be written");
-}
-
 /* FNV-1a: it needs to see accidents, not enemies. */
 static uint64_t hash_more(uint64_t hash, const unsigned char *bytes, size_t size)
 {
@@ -165,7 +160,7 @@ static struct error *extend_to(FILE *file, const char *path, int64_t bytes, stru
         size_t size = wanted < (int64_t)sizeof piece ? (size_t)wanted : sizeof piece;
         ssize_t got = pread(fileno(file), piece, size, mark->bytes);
         if (got < 0)
-            return system_error(path, errno);
+            return file_error(path, errno);
         if (got == 0)
             return NULL;
         mark->hash = hash_more(mark->hash, piece, (size_t)got);
@@ -179,7 +174,7 @@ struct error *csv_extend(FILE *file, const char *path, struct csv_mark *mark)
     struct stat status;
     errno = 0;
     if (fflush(file) || ferror(file) || fstat(fileno(file), &status))
-        return system_error(path, errno);
+        return file_error(path, errno);
     return extend_to(file, path, status.st_size, mark);
 }
 
@@ -204,7 +199,7 @@ static struct error *place_after(FILE *file, const char *path, int64_t keep, off
         lines += c == '\n';
     }
     if (ferror(file))
-        return system_error(path, errno);
+        return file_error(path, errno);
     if (lines < keep + 1)
         return error_new(ERROR_INPUT,
                          "%s: has %lld rows, but %lld were written: the run cannot continue", path,
@@ -236,7 +231,7 @@ static struct error *open_after(const char *path, int64_t keep, const struct csv
     if (!error && mark)
         error = compare_mark(*file, path, keep, place, mark);
     if (!error && (fseeko(*file, place, SEEK_SET) || ftruncate(fileno(*file), place)))
-        error = system_error(path, errno);
+        error = file_error(path, errno);
     if (error) {
         fclose(*file);
         *file = NULL;
@@ -254,4 +249,18 @@ struct error *csv_grow(const char *path, int64_t keep, const struct csv_mark *ma
 void csv_put_head(FILE *file, const char *name, const char *unit)
 {
     fprintf(file, *unit ? "%s [%s]" : "%s%s", name, unit);
+}
+
+void csv_put_named_head(FILE *file, const char *name, const char *what, const char *unit)
+{
+    char *head = text_format(*unit ? "%s%s [%s]" : "%s%s%s", name, what, unit);
+    csv_put_text(file, head);
+    free(head);
+}
+
+void csv_add_finite(FILE *file, double value)
+{
+    fputc(',', file);
+    if (isfinite(value))
+        csv_put_number(file, value);
 }

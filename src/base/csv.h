@@ -51,9 +51,14 @@ struct error *csv_visit_mark(struct csv_mark *mark, const char *name, struct vis
 /* Writes the head of a column in UNIT, "" for a plain number: `pressure [Pa]`. */
 void csv_put_head(FILE *file, const char *name, const char *unit);
 
+/* The same in quotes, with WHAT behind a NAME that a user gave: `"left gauge error [Pa]"`. */
+void csv_put_named_head(FILE *file, const char *name, const char *what, const char *unit);
+
 /* Writes TEXT (NULL: nothing) as one field in quotes, and a number with as many digits as reading
  * the same bits again takes; "nan" where there is none. */
 void csv_put_text(FILE *file, const char *text);
 void csv_put_number(FILE *file, double value);
+/* A comma, and VALUE where it is finite. */
+void csv_add_finite(FILE *file, double value);
 
 #endif

@@ -68,6 +68,11 @@ struct error *out_of_memory_for(const char *format, ...)
     return error;
 }
 
+struct error *file_error(const char *path, int number)
+{
+    return error_new(ERROR_SYSTEM, "%s: %s", path, number ? strerror(number) : "cannot be written");
+}
+
 struct error *error_context(struct error *error, const char *format, ...)
 {
     if (!error || error == &no_memory)

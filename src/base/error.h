@@ -26,6 +26,9 @@ struct error *error_new(enum error_kind kind, const char *format, ...) BOLIDE_PR
 struct error *out_of_memory(void);
 struct error *out_of_memory_for(const char *format, ...) BOLIDE_PRINTF(1, 2);
 
+/* ERROR_SYSTEM: what NUMBER, a value of errno, says of the file PATH; 0: it cannot be written. */
+struct error *file_error(const char *path, int number);
+
 /* Puts "context: " before every message of ERROR and returns it; NULL stays NULL. */
 struct error *error_context(struct error *error, const char *format, ...) BOLIDE_PRINTF(2, 3);
 

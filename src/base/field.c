@@ -7,6 +7,23 @@
 #include "base/chance.h"
 #include "base/memory.h"
 
+size_t fields_bytes(const struct field *field, int fields, unsigned kind)
+{
+    size_t bytes = 0;
+    for (int k = 0; k < fields; k++)
+        if (!kind || field[k].declaration.kind & kind)
+            bytes += field_bytes(&field[k]);
+    return bytes;
+}
+
+void *fields_find(const struct field *field, int fields, const char *name)
+{
+    for (int k = 0; k < fields; k++)
+        if (!strcmp(field[k].declaration.name, name))
+            return field[k].data;
+    return NULL;
+}
+
 static uint64_t member_hash(const struct field *field, int fields, int64_t i)
 {
     uint64_t hash = 0;

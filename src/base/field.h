@@ -33,6 +33,12 @@ BOLIDE_INLINE size_t field_bytes(const struct field *field)
     return number_size(field->declaration.number) * (size_t)field->declaration.components;
 }
 
+/* Bytes of a member in those of FIELDS that have a bit of KIND; 0: in all. */
+size_t fields_bytes(const struct field *field, int fields, unsigned kind);
+
+/* The data of the one called NAME of FIELDS, NULL where there is none. */
+void *fields_find(const struct field *field, int fields, const char *name);
+
 /* One number for the bits of the STATE ones of FIELDS of COUNT members, whatever their order. */
 uint64_t fields_hash(const struct field *field, int fields, int64_t count);
 

@@ -13,11 +13,6 @@
 
 static const char part[] = ".part";
 
-static struct error *system_error(const char *path, int number)
-{
-    return error_new(ERROR_SYSTEM, "%s: %s", path, strerror(number));
-}
-
 char *file_beside(const char *path) { return text_format("%s%s", path, part); }
 
 char *path_join(const char *folder, const char *name)
@@ -34,7 +29,7 @@ struct error *file_clear_beside(const char *path, char **beside)
         return out_of_memory();
     if (!unlink(*beside) || errno == ENOENT)
         return NULL;
-    struct error *error = system_error(*beside, errno);
+    struct error *error = file_error(*beside, errno);
     free(*beside);
     *beside = NULL;
     return error;
@@ -58,9 +53,9 @@ struct error *file_open_descriptor(const char *path, int flags, int *descriptor)
                          "%s: is a symbolic link; results are not written through links: remove it",
                          path);
     if (*descriptor < 0)
-        return errno == ENXIO || errno == EISDIR ? not_plain(path) : system_error(path, errno);
+        return errno == ENXIO || errno == EISDIR ? not_plain(path) : file_error(path, errno);
     if (fstat(*descriptor, &status))
-        error = system_error(path, errno);
+        error = file_error(path, errno);
     else if (!S_ISREG(status.st_mode))
         error = not_plain(path);
     if (error) {
@@ -81,7 +76,7 @@ struct error *file_open(const char *path, const char *mode, FILE **file)
         *file = fdopen(descriptor, mode);
     if (*file)
         return NULL;
-    struct error *error = system_error(path, errno);
+    struct error *error = file_error(path, errno);
     close(descriptor);
     return error;
 }
@@ -143,7 +138,7 @@ struct error *file_publish(const char *path)
     free(beside);
     if (number == ENOENT) /* what was written is elsewhere: the folder was replaced */
         TRY(file_check_folder(path));
-    return number ? system_error(path, number) : NULL;
+    return number ? file_error(path, number) : NULL;
 }
 
 struct error *file_begin(const char *path, FILE **file)
@@ -151,7 +146,7 @@ struct error *file_begin(const char *path, FILE **file)
     char *beside;
     TRY(file_clear_beside(path, &beside));
     *file = fopen(beside, "wxe");
-    struct error *error = *file ? NULL : system_error(path, errno);
+    struct error *error = *file ? NULL : file_error(path, errno);
     free(beside);
     return error;
 }
@@ -171,8 +166,22 @@ struct error *file_end(const char *path, FILE *file)
     if (beside)
         unlink(beside);
     free(beside);
-    return number ? system_error(path, number)
+    return number ? file_error(path, number)
                   : error_new(ERROR_SYSTEM, "%s: cannot be written", path);
+}
+
+struct error *file_write(const char *folder, const char *name,
+                         void (*put)(FILE *file, const void *content), const void *content)
+{
+    FILE *file;
+    char *path = path_join(folder, name);
+    struct error *error = path ? file_begin(path, &file) : out_of_memory();
+    if (!error) {
+        put(file, content);
+        error = file_end(path, file);
+    }
+    free(path);
+    return error;
 }
 
 /* NULL when FOLDER is a folder already or was made. */
@@ -183,7 +192,7 @@ static struct error *folder_make_one(const char *folder)
     int number = errno;
     struct stat status;
     if (stat(folder, &status))
-        return error_context(system_error(folder, number), "cannot make a folder");
+        return error_context(file_error(folder, number), "cannot make a folder");
     if (!S_ISDIR(status.st_mode))
         return error_new(ERROR_INPUT, "%s: is a file instead of a folder", folder);
     return NULL;
@@ -221,7 +230,7 @@ struct error *file_hash(const char *path, uint64_t *hash)
         return NULL;
     FILE *file = fopen(path, "re");
     if (!file)
-        return system_error(path, errno);
+        return file_error(path, errno);
     uint64_t words[1 << 12], sum = 0xcbf29ce484222325u; /* FNV-1a, eight bytes at a time */
     for (size_t got; (got = fread(words, 1, sizeof words, file)) > 0;) {
         memset((char *)words + got, 0, -got % sizeof *words);
@@ -231,7 +240,7 @@ struct error *file_hash(const char *path, uint64_t *hash)
         }
         sum += got;
     }
-    struct error *error = ferror(file) ? system_error(path, EIO) : NULL;
+    struct error *error = ferror(file) ? file_error(path, EIO) : NULL;
     fclose(file);
     *hash = sum ? sum : 1;
     return error;
@@ -252,14 +261,14 @@ struct error *file_read(const char *path, char **content, size_t *size)
         return NULL;
     FILE *file = fopen(path, "re");
     if (!file)
-        return system_error(path, errno);
+        return file_error(path, errno);
     char *text = malloc((size_t)status.st_size + 1);
     size_t length = text ? fread(text, 1, (size_t)status.st_size, file) : 0;
     int number = !text ? ENOMEM : ferror(file) ? EIO : 0;
     fclose(file);
     if (number) {
         free(text);
-        return system_error(path, number);
+        return file_error(path, number);
     }
     text[length] = '\0';
     *content = text;
@@ -304,7 +313,7 @@ struct error *folder_names(const char *folder, const char *ending, char ***names
     *count = 0;
     DIR *directory = opendir(folder);
     if (!directory)
-        return errno == ENOENT || errno == ENOTDIR ? NULL : system_error(folder, errno);
+        return errno == ENOENT || errno == ENOTDIR ? NULL : file_error(folder, errno);
     struct error *error = NULL;
     for (struct dirent *entry; !error && (entry = readdir(directory));) {
         if (!ends_with(entry->d_name, strlen(entry->d_name), ending))

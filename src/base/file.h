@@ -19,6 +19,10 @@ struct error *file_begin(const char *path, FILE **file);
 /* Closes FILE (an error of any earlier write shows here) and publishes PATH. */
 struct error *file_end(const char *path, FILE *file);
 
+/* Writes FOLDER/NAME, whose text PUT makes of CONTENT. */
+struct error *file_write(const char *folder, const char *name,
+                         void (*put)(FILE *file, const void *content), const void *content);
+
 /* Opens PATH as fopen does with the MODE "r+", "a", "a+", "w" or "w+", but only a plain file:
  * ERROR_INPUT for a link, whose target may be anybody's, and for a pipe or a device, which may
  * never answer. */

@@ -4,6 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char *const parameter_axes[] = {"x", "y", "z", NULL};
+const char *const parameter_sides[] = {"low", "high", NULL};
+
 const struct choice_list *catalogue_list(const struct catalogue *catalogue, const char *kind)
 {
     for (const struct choice_list *list = catalogue->lists; list->kind_of_thing; list++)

@@ -96,6 +96,9 @@ struct parameter {
     }
 #define PARAMETER_IS_END(parameter) (!(parameter)->key && !(parameter)->kind_of_thing)
 
+/* Names of choices that many tables have: x, y, z; low, high. */
+extern const char *const parameter_axes[], *const parameter_sides[];
+
 struct vector_value {
     int count;
     double at[3];

@@ -24,14 +24,9 @@ static const char *const result_files[] = {
 };
 static const char *const result_folders[] = {"snapshots", "pictures", "probes", "profiles"};
 
-static struct error *system_error(const char *path, int number)
-{
-    return error_new(ERROR_SYSTEM, "%s: %s", path, strerror(number));
-}
-
 static struct error *remove_file(const char *path)
 {
-    return unlink(path) && errno != ENOENT && errno != ENOTDIR ? system_error(path, errno) : NULL;
+    return unlink(path) && errno != ENOENT && errno != ENOTDIR ? file_error(path, errno) : NULL;
 }
 
 /* Removes NAME and what a killed run left of it half written. */
@@ -66,7 +61,7 @@ static struct error *remove_numbered(const char *path, const char *pattern)
 {
     DIR *directory = opendir(path);
     if (!directory)
-        return errno == ENOENT || errno == ENOTDIR ? NULL : system_error(path, errno);
+        return errno == ENOENT || errno == ENOTDIR ? NULL : file_error(path, errno);
     struct error *error = NULL;
     for (struct dirent *entry; !error && (entry = readdir(directory));) {
         if (!matches(entry->d_name, pattern))
@@ -119,7 +114,7 @@ static struct error *remove_empty(const char *folder, const char *name)
     struct error *error = path ? NULL : out_of_memory();
     if (path && rmdir(path) && errno != ENOTEMPTY && errno != EEXIST && errno != ENOENT &&
         errno != ENOTDIR)
-        error = system_error(path, errno);
+        error = file_error(path, errno);
     free(path);
     return error;
 }
@@ -193,7 +188,7 @@ static struct error *mark_folder(const char *folder)
     char *path = path_join(folder, log_name);
     struct error *error = path ? file_open(path, "w", &file) : out_of_memory();
     if (file && fclose(file))
-        error = system_error(path, errno);
+        error = file_error(path, errno);
     free(path);
     return error;
 }

@@ -1,9 +1,6 @@
 /* The keys of loads. */
 #include "case/internal.h"
 
-static const char *const axis_names[] = {"x", "y", "z", NULL};
-static const char *const side_names[] = {"low", "high", NULL};
-
 static const char *const charge_names[] = {"free-air", "surface", NULL};
 
 static const struct parameter blast_table[] = {
@@ -35,11 +32,11 @@ const struct parameter case_load_table[] = {
               "dimension, numbers or expressions of the time",
               .arguments = ARGUMENT_TIME, .unit = "Pa"),
     PARAMETER(CHOICE, struct load_input, axis, "x", "the axis of `between` and `side`",
-              .names = axis_names),
+              .names = parameter_axes),
     PARAMETER(CHOICE, struct load_input, side, OPTIONAL,
               "which way the surface faces: to the low or the high end of the axis; default: high "
               "for a traction, any for a blast",
-              .names = side_names),
+              .names = parameter_sides),
     PARAMETER(VECTOR, struct load_input, between, OPTIONAL,
               "two positions on the axis that bound the surface: of a blast at the start, else at "
               "any time; default: all of it",

@@ -1,7 +1,6 @@
 /* The keys of what is watched while a case runs: probes and profiles. */
 #include "case/internal.h"
 
-static const char *const axis_names[] = {"x", "y", "z", NULL};
 static const char *const by_names[] = {"nothing", "material", "body", NULL};
 
 const struct parameter case_probe_table[] = {
@@ -15,7 +14,8 @@ const struct parameter case_probe_table[] = {
     PARAMETER(NAMES, struct probe_input, fields, OPTIONAL,
               "of a tracer or gauge: fields, or components of them; default: all"),
     PARAMETER(CHOICE, struct probe_input, axis, OPTIONAL,
-              "of a front: the axis along which it is located; default: x", .names = axis_names),
+              "of a front: the axis along which it is located; default: x",
+              .names = parameter_axes),
     PARAMETER(VECTOR, struct probe_input, between, OPTIONAL,
               "of a front: two positions on the axis between which it is located", .unit = "m"),
     PARAMETER(NUMBER, struct probe_input, every, OPTIONAL, "time between rows; default: every step",
@@ -26,7 +26,7 @@ const struct parameter case_probe_table[] = {
 const struct parameter case_profile_table[] = {
     PARAMETER(NAMES, struct profile_input, fields, REQUIRED, "fields, or components of them"),
     PARAMETER(CHOICE, struct profile_input, along, "x", "the axis along which the bins lie",
-              .names = axis_names),
+              .names = parameter_axes),
     PARAMETER(INTEGER, struct profile_input, bins, "100",
               "number of bins of equal width, if there is no `width`", .above = 1,
               .below = PROFILE_BINS, .closed = true),

@@ -1,7 +1,6 @@
 /* Every key of a case file: what it is, its default, its range and a line of help. */
 #include "case/internal.h"
 
-static const char *const axis_names[] = {"x", "y", "z", NULL};
 static const char *const geometry_names[] = {"plane-strain", "plane-stress", "axisymmetric",
                                              "cylindrical",  "spherical",    NULL};
 
@@ -102,7 +101,7 @@ static const struct parameter check_table[] = {
     PARAMETER(VECTOR, struct check_input, between, OPTIONAL,
               "two positions on the axis that bound what is measured", .unit = "m"),
     PARAMETER(CHOICE, struct check_input, axis, "x", "the axis of `between` and of fronts",
-              .names = axis_names),
+              .names = parameter_axes),
     PARAMETER(VECTOR, struct check_input, about, OPTIONAL,
               "a point: positions are distances from it instead of positions on `axis`",
               .unit = "m"),

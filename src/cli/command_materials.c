@@ -74,11 +74,10 @@ static struct error *print_file(const char *path)
     size_t length;
     FILE *file = fopen(path, "r");
     if (!file)
-        return error_new(ERROR_SYSTEM, "%s: %s", path, strerror(errno));
+        return file_error(path, errno);
     while ((length = fread(buffer, 1, sizeof buffer, file)) > 0)
         fwrite(buffer, 1, length, stdout);
-    struct error *error =
-        ferror(file) ? error_new(ERROR_SYSTEM, "%s: %s", path, strerror(errno)) : NULL;
+    struct error *error = ferror(file) ? file_error(path, errno) : NULL;
     fclose(file);
     return error;
 }

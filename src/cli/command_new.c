@@ -13,11 +13,6 @@ enum { TEMPLATES = 64 };
 
 static const char usual_template[] = "impact";
 
-static struct error *system_error(const char *path)
-{
-    return error_new(ERROR_SYSTEM, "%s: %s", path, strerror(errno));
-}
-
 /* Names of the templates in FOLDER, without their ending; the caller frees each. */
 static int template_names(const char *folder, char **names)
 {
@@ -62,7 +57,7 @@ static struct error *copy_file(FILE *from, const char *path)
     if (!file && errno == EEXIST)
         return error_new(ERROR_INPUT, "%s: exists already and is left unchanged", path);
     if (!file)
-        return system_error(path);
+        return file_error(path, errno);
     char bytes[4096];
     size_t got;
     while ((got = fread(bytes, 1, sizeof bytes, from)) > 0 && fwrite(bytes, 1, got, file) == got)
@@ -71,7 +66,7 @@ static struct error *copy_file(FILE *from, const char *path)
     failed = fclose(file) || failed;
     if (!failed)
         return NULL;
-    struct error *error = system_error(path);
+    struct error *error = file_error(path, errno);
     remove(path);
     return error;
 }

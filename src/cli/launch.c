@@ -237,7 +237,7 @@ int launch_ranks(int count, char **words, int64_t ranks)
     if (!line || !path) {
         status = report_error(out_of_memory());
     } else if (file < 0) {
-        status = report_error(error_new(ERROR_SYSTEM, "%s: %s", path, strerror(errno)));
+        status = report_error(file_error(path, errno));
     } else {
         close(file);
         setenv(status_variable, path, 1);

@@ -35,11 +35,7 @@ static void bind_core(struct cell_blocks *cells)
 
 void *cell_blocks_field(const struct cell_blocks *cells, const char *name)
 {
-    for (int k = 0; k < cells->fields; k++)
-        if (strcmp(cells->field[k].declaration.name, name) == 0)
-            return cells->field[k].data;
-    assert(!"a field of the cells");
-    return NULL;
+    return fields_find(cells->field, cells->fields, name);
 }
 
 /* Arrays for the blocks that are there, cleared. */
@@ -223,21 +219,15 @@ uint64_t cell_blocks_hash(const struct cell_blocks *cells)
 
 size_t cell_blocks_bytes(const struct cell_blocks *cells)
 {
-    size_t bytes = 0;
-    for (int k = 0; k < cells->fields; k++)
-        bytes += field_bytes(&cells->field[k]);
-    return bytes;
+    return fields_bytes(cells->field, cells->fields, 0);
 }
 
 /* What goes with a block that moves to another rank: the block, then of each STATE field its
  * cells. */
 static size_t bytes_that_go(const struct cell_blocks *cells)
 {
-    size_t bytes = 0;
-    for (int k = 0; k < cells->fields; k++)
-        if (cells->field[k].declaration.kind & FIELD_STATE)
-            bytes += field_bytes(&cells->field[k]);
-    return sizeof(struct cell_block) + bytes * (size_t)cell_block_room(cells->dimension);
+    return sizeof(struct cell_block) + fields_bytes(cells->field, cells->fields, FIELD_STATE) *
+                                           (size_t)cell_block_room(cells->dimension);
 }
 
 static int32_t cells_of(const struct cell_block *block)

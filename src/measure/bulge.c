@@ -2,14 +2,12 @@
  * heaviest fragment from where the face was at the start. */
 #include "measure/broken_axis.h"
 
-static const char *const axis_names[] = {"x", "y", "z", NULL};
-static const char *const side_names[] = {"low", "high", NULL};
-
 const struct parameter measure_bulge_table[] = {
     PARAMETER(CHOICE, struct measure_bulge, along, REQUIRED, "the axis normal to the face",
-              .names = axis_names),
+              .names = parameter_axes),
     PARAMETER(CHOICE, struct measure_bulge, side, REQUIRED,
-              "the end of the axis at which the rear face is: low or high", .names = side_names),
+              "the end of the axis at which the rear face is: low or high",
+              .names = parameter_sides),
     CONNECTED_LINK(offsetof(struct measure_bulge, link)),
     PARAMETER_END,
 };

@@ -10,16 +10,14 @@
 
 #include "base/memory.h"
 
-static const char *const axis_names[] = {"x", "y", "z", NULL};
-static const char *const side_names[] = {"low", "high", NULL};
 enum { TAKE_DEPTH, TAKE_DIAMETER, TAKE_VOLUME };
 static const char *const take_names[] = {"depth", "diameter", "volume", NULL};
 
 const struct parameter measure_crater_table[] = {
     PARAMETER(CHOICE, struct measure_crater, along, REQUIRED, "the axis normal to the face",
-              .names = axis_names),
+              .names = parameter_axes),
     PARAMETER(CHOICE, struct measure_crater, side, REQUIRED,
-              "the end of the axis at which the face is: low or high", .names = side_names),
+              "the end of the axis at which the face is: low or high", .names = parameter_sides),
     PARAMETER(CHOICE, struct measure_crater, take, "depth",
               "depth, diameter or volume below the original face; in a plane, volume is an area",
               .names = take_names),

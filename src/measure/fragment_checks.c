@@ -4,7 +4,6 @@
 static const char *const take_names[] = {"mass",       "size",       "particles",  "speed",
                                          "velocity.x", "velocity.y", "velocity.z", NULL};
 enum { TAKE_MASS, TAKE_SIZE, TAKE_PARTICLES, TAKE_SPEED, TAKE_VELOCITY };
-static const char *const axis_names[] = {"x", "y", "z", NULL};
 
 const struct parameter measure_fragments_table[] = {
     PARAMETER(QUANTITY, struct measure_fragments, above, OPTIONAL,
@@ -24,7 +23,7 @@ const struct parameter measure_largest_fragment_table[] = {
 
 const struct parameter measure_length_table[] = {
     PARAMETER(CHOICE, struct measure_length, along, REQUIRED, "the axis of the length",
-              .names = axis_names),
+              .names = parameter_axes),
     CONNECTED_LINK(offsetof(struct measure_length, link)),
     PARAMETER_END,
 };

@@ -17,8 +17,7 @@ const struct parameter measure_front_table[] = {
               "instead of `value`: the level halfway between the field ahead of the front and the "
               "mean of all values past this level"),
     PARAMETER(CHOICE, struct measure_front, from, "high",
-              "the end of the axis from which the search starts",
-              .names = (const char *const[]){"low", "high", NULL}),
+              "the end of the axis from which the search starts", .names = parameter_sides),
     PARAMETER(NUMBER, struct measure_front, slab, "0 m",
               "thickness of slabs over which particles are averaged first; 0: no averaging",
               .unit = "m", .below = INFINITY, .closed = true),

@@ -4,11 +4,9 @@
  *   d = 2 sqrt(mean of R_s^2) in 3-D,  2 R in axisymmetry,  R_1 + R_2 in a plane. */
 #include "measure/broken_axis.h"
 
-static const char *const axis_names[] = {"x", "y", "z", NULL};
-
 const struct parameter measure_hole_table[] = {
     PARAMETER(CHOICE, struct measure_hole, along, REQUIRED, "the axis of the hole",
-              .names = axis_names),
+              .names = parameter_axes),
     PARAMETER(NUMBER, struct measure_hole, at, OPTIONAL,
               "position on the axis; default: the clear opening seen along the whole axis",
               .unit = "m", .above = -INFINITY, .below = INFINITY),

@@ -9,10 +9,9 @@
 #include "measure/measure.h"
 #include "model/start_place.h"
 
-static const char *const axis_names[] = {"x", "y", "z", NULL};
-
 const struct parameter measure_turn_table[] = {
-    PARAMETER(CHOICE, struct measure_turn, axis, "z", "the axis of rotation", .names = axis_names),
+    PARAMETER(CHOICE, struct measure_turn, axis, "z", "the axis of rotation",
+              .names = parameter_axes),
     PARAMETER_END,
 };
 

@@ -10,8 +10,6 @@
 #include "base/memory.h"
 #include "model/start_place.h"
 
-static const char *const axis_names[] = {"x", "y", "z", NULL};
-static const char *const side_names[] = {"low", "high", NULL};
 enum { TAKE_DIAMETER, TAKE_RATIO, TAKE_DEVIATION };
 static const char *const take_names[] = {"diameter", "ratio", "deviation", NULL};
 
@@ -21,9 +19,9 @@ const struct parameter measure_zone_table[] = {
     PARAMETER(NUMBER, struct measure_zone, value, REQUIRED,
               "what the field is at least in the zone"),
     PARAMETER(CHOICE, struct measure_zone, along, REQUIRED, "the axis normal to the face",
-              .names = axis_names),
+              .names = parameter_axes),
     PARAMETER(CHOICE, struct measure_zone, side, REQUIRED,
-              "the end of the axis at which the face is: low or high", .names = side_names),
+              "the end of the axis at which the face is: low or high", .names = parameter_sides),
     PARAMETER(CHOICE, struct measure_zone, take, "diameter",
               "diameter: of the circle of its area; of its radii in 16 directions ratio: the "
               "largest over the smallest, deviation: the standard deviation over the mean",

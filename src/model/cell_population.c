@@ -1,17 +1,6 @@
 /* The population of solvers whose members are cells; see cell_population.h. */
 #include "model/cell_population.h"
 
-#include <string.h>
-
-/* NULL where the store has none. */
-static const double *fraction_of(const struct cell_blocks *cells)
-{
-    for (int k = 0; k < cells->fields; k++)
-        if (strcmp(cells->field[k].declaration.name, "fraction") == 0)
-            return cells->field[k].data;
-    return NULL;
-}
-
 static struct population members(const void *store)
 {
     const struct cell_blocks *cells = store;
@@ -29,7 +18,7 @@ static struct population members(const void *store)
                                .pressure = cells->pressure,
                                .position = (const double(*)[3])cells->position,
                                .velocity = (const double(*)[3])cells->velocity,
-                               .fraction = fraction_of(cells),
+                               .fraction = fields_find(cells->field, cells->fields, "fraction"),
                                .edge = cells->edge,
                                .blocks = cells->blocks,
                                .block = cells->block,

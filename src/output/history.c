@@ -15,11 +15,6 @@ struct history {
     struct csv_mark mark;
 };
 
-static struct error *system_error(const char *path, int number)
-{
-    return error_new(ERROR_SYSTEM, "%s: %s", path, number ? strerror(number) : "cannot be written");
-}
-
 struct error *history_open(const char *path, int64_t keep, const struct csv_mark *mark,
                            struct history **history)
 {
@@ -56,7 +51,7 @@ struct error *history_close(struct history *history)
     if (!history)
         return NULL;
     struct error *error =
-        history->file && fclose(history->file) ? system_error(history->path, errno) : NULL;
+        history->file && fclose(history->file) ? file_error(history->path, errno) : NULL;
     free(history->path);
     free(history);
     return error;
@@ -244,6 +239,6 @@ struct error *history_row(struct history *history, const struct simulation *simu
         write_line(history->file, false, &row);
     free(totals);
     if (history->file && (fflush(history->file) || ferror(history->file)))
-        return system_error(history->path, errno);
+        return file_error(history->path, errno);
     return NULL;
 }

@@ -70,11 +70,7 @@ void particles_destroy(struct particles *particles)
 
 void *particles_field(const struct particles *particles, const char *name)
 {
-    for (int k = 0; k < particles->fields; k++)
-        if (strcmp(particles->field[k].declaration.name, name) == 0)
-            return particles->field[k].data;
-    assert(!"a field that exists");
-    return NULL;
+    return fields_find(particles->field, particles->fields, name);
 }
 
 static struct error *particles_reserve(struct particles *particles, int64_t needed)
@@ -181,8 +177,5 @@ uint64_t particles_hash(const struct particles *particles)
 
 size_t particles_bytes(const struct particles *particles)
 {
-    size_t bytes = 0;
-    for (int k = 0; k < particles->fields; k++)
-        bytes += field_bytes(&particles->field[k]);
-    return bytes;
+    return fields_bytes(particles->field, particles->fields, 0);
 }

@@ -233,15 +233,6 @@ static double beyond(const struct bounds *room, const struct population *p, int3
     return most;
 }
 
-/* The fraction burnt of each member; NULL: the members have none. */
-static const double *burnt_of(const struct population *p)
-{
-    for (int k = 0; k < p->fields; k++)
-        if (!strcmp(p->field[k].declaration.name, "burnt"))
-            return p->field[k].data;
-    return NULL;
-}
-
 static void look_at(const struct warnings *w, const struct simulation *simulation,
                     const struct population *p, const double *burnt, int32_t i, struct found *all)
 {
@@ -279,7 +270,7 @@ static void join(struct found *found, const struct found *own, int count)
 static bool search(const struct warnings *w, const struct simulation *simulation,
                    const struct population *p, struct found *found, int count)
 {
-    const double *burnt = burnt_of(p);
+    const double *burnt = fields_find(p->field, p->fields, "burnt");
     bool failed = false;
 #pragma omp parallel num_threads(p->threads)
     {

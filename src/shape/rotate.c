@@ -2,8 +2,6 @@
  * of the body is not turned. */
 #include "shape/kinds.h"
 
-static const char *const axis_names[] = {"x", "y", "z", NULL};
-
 const struct parameter shape_rotate_table[] = {
     PARAMETER(ONE_OF, struct shape_rotate, shape, REQUIRED, "the shape before the rotation",
               .kind_of_thing = "shape"),
@@ -14,7 +12,7 @@ const struct parameter shape_rotate_table[] = {
     PARAMETER(VECTOR, struct shape_rotate, about, OPTIONAL,
               "a point on the axis of rotation; default: the origin", .unit = "m"),
     PARAMETER(CHOICE, struct shape_rotate, axis, "z", "direction of the axis of rotation; z in 2-D",
-              .names = axis_names),
+              .names = parameter_axes),
     PARAMETER_END,
 };
 
