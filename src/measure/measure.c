@@ -8,77 +8,16 @@
 #include "base/memory.h"
 #include "shape/shape.h"
 
-#define FIELD measure_field_table, sizeof(struct measure_field)
-
 const struct parameter measure_field_table[] = {
     PARAMETER(TEXT, struct measure_field, field, REQUIRED,
               "a field of the particles, or one component of it: pressure, velocity.x, stress.xx"),
     PARAMETER_END,
 };
 
-/* The names are keys of a check. */
-const struct choice measure_choices[MEASURES] = {
-    {"mean", "mean of a field over particles", FIELD, &measure_mean},
-    {"minimum", "smallest value of a field", FIELD, &measure_minimum},
-    {"maximum", "largest value of a field", FIELD, &measure_maximum},
-    {"quantile", "value of a field that a fraction of the particles does not exceed",
-     measure_quantile_table, sizeof(struct measure_quantile), &measure_quantile},
-    {"l1", "mean distance of a field from the exact solution, by volume, over `scale`", FIELD,
-     &measure_l1},
-    {"rms", "root of the mean square distance from the exact solution, by volume, over `scale`",
-     FIELD, &measure_rms},
-    {"max_error", "largest distance from the exact solution, over `scale`", FIELD,
-     &measure_max_error},
-    {"contact_max", "largest |f/f* - 1| of the 10 particles nearest the contact on either side",
-     FIELD, &measure_contact_max},
-    {"contact_rms", "root mean square of f/f* - 1 of the same 20 particles", FIELD,
-     &measure_contact_rms},
-    {"front", "position where a field first crosses a value, seen from one end",
-     measure_front_table, sizeof(struct measure_front), &measure_front},
-    {"width", "number of particles in a front, between 10 and 90 % of its jump",
-     measure_width_table, sizeof(struct measure_width), &measure_width},
-    {"conserved", "relative change of a total since the start, less what the ledger booked",
-     measure_conserved_table, sizeof(struct measure_conserved), &measure_conserved},
-    {"total", "a sum over particles: momentum.x, kinetic_energy", measure_total_table,
-     sizeof(struct measure_total), &measure_total},
-    {"decay", "decay rate of such a sum: the logarithm of start over now, over the time",
-     measure_total_table, sizeof(struct measure_total), &measure_decay},
-    {"spread", "standard deviation of a field over particles", FIELD, &measure_spread},
-    {"extent", "width of a body along an axis between its outermost particles, or its radius",
-     measure_extent_table, sizeof(struct measure_extent), &measure_extent},
-    {"turn", "rotation angle of a body since the start, within half a turn", measure_turn_table,
-     sizeof(struct measure_turn), &measure_turn},
-    {"pieces", "number of pieces into which bodies are broken", measure_pieces_table,
-     sizeof(struct measure_pieces), &measure_pieces},
-    {"fragments", "number of fragments into which bodies have broken, failed particles aside",
-     measure_fragments_table, sizeof(struct measure_fragments), &measure_fragments},
-    {"largest_fragment", "mass, size or velocity of the heaviest fragment",
-     measure_largest_fragment_table, sizeof(struct measure_largest_fragment),
-     &measure_largest_fragment},
-    {"length", "length of the heaviest fragment of a body along an axis, debris aside",
-     measure_length_table, sizeof(struct measure_length), &measure_length},
-    {"hole", "diameter of the hole in a body about an axis; 0 if there is none", measure_hole_table,
-     sizeof(struct measure_hole), &measure_hole},
-    {"crater", "depth, diameter or volume of a crater below the original face of a body",
-     measure_crater_table, sizeof(struct measure_crater), &measure_crater},
-    {"bulge", "how far a body has been pushed out of one of its faces", measure_bulge_table,
-     sizeof(struct measure_bulge), &measure_bulge},
-    {"zone", "diameter or shape of the part of a face in which a field reaches a value",
-     measure_zone_table, sizeof(struct measure_zone), &measure_zone},
-    {"asymmetry", "largest difference of a field from its mirror image, over its largest value",
-     measure_asymmetry_table, sizeof(struct measure_asymmetry), &measure_asymmetry},
-    {"radius", "radius of a material circle or sphere, estimated from adjacent particles",
-     measure_radius_table, sizeof(struct measure_radius), &measure_radius},
-    {"shear_layer", "effective viscosity with which two sliding streams mix",
-     measure_shear_layer_table, sizeof(struct measure_shear_layer), &measure_shear_layer},
-    {"recorded", "number from the record of a probe", measure_recorded_table,
-     sizeof(struct measure_recorded), &measure_recorded},
-    {"blast", "peak, arrival, duration or impulse of a blast wave at a probe", measure_blast_table,
-     sizeof(struct measure_blast), &measure_blast},
-    {"event", "time at which the solver does something that it does once: the stages of `afdmp`",
-     measure_event_table, sizeof(struct measure_event), &measure_event},
-    {"finite", "number of particles whose field is not a finite number", FIELD, &measure_finite},
-};
+#define MEASURE_CHOICE(name, parameters, help)                                       \
+    {#name, help, measure_##parameters##_table, sizeof(struct measure_##parameters), \
+     &measure_##name},
+const struct choice measure_choices[MEASURES] = {MEASURE_LIST(MEASURE_CHOICE)};
 
 const char *nothing_text(enum nothing why)
 {

@@ -1,6 +1,6 @@
 /* Measures: what a check finds out about the particles of a moment. A measure is a choice of the
  * catalogue's kind "measure"; its thing is a struct measure_class. To add one: its file
- * <name>.c, its class below, its line in measure.c. */
+ * <name>.c, and below the struct of its parameters and its line in the list. */
 #ifndef BOLIDE_MEASURE_H
 #define BOLIDE_MEASURE_H
 
@@ -205,27 +205,58 @@ struct measure_shear_layer {
 double conserved_change(const struct simulation *simulation, const struct totals *start,
                         enum conserved_total total);
 
-enum { MEASURES = 32 };
-extern const struct choice measure_choices[MEASURES];
+/* X(name, parameters, help): a key of a check, its struct measure_<parameters> and
+ * measure_<parameters>_table, and its measure_<name>, a struct measure_class. */
+#define MEASURE_LIST(X)                                                                           \
+    X(mean, field, "mean of a field over particles")                                              \
+    X(minimum, field, "smallest value of a field")                                                \
+    X(maximum, field, "largest value of a field")                                                 \
+    X(quantile, quantile, "value of a field that a fraction of the particles does not exceed")    \
+    X(l1, field, "mean distance of a field from the exact solution, by volume, over `scale`")     \
+    X(rms, field,                                                                                 \
+      "root of the mean square distance from the exact solution, by volume, over `scale`")        \
+    X(max_error, field, "largest distance from the exact solution, over `scale`")                 \
+    X(contact_max, field,                                                                         \
+      "largest |f/f* - 1| of the 10 particles nearest the contact on either side")                \
+    X(contact_rms, field, "root mean square of f/f* - 1 of the same 20 particles")                \
+    X(front, front, "position where a field first crosses a value, seen from one end")            \
+    X(width, width, "number of particles in a front, between 10 and 90 % of its jump")            \
+    X(conserved, conserved,                                                                       \
+      "relative change of a total since the start, less what the ledger booked")                  \
+    X(total, total, "a sum over particles: momentum.x, kinetic_energy")                           \
+    X(decay, total, "decay rate of such a sum: the logarithm of start over now, over the time")   \
+    X(spread, field, "standard deviation of a field over particles")                              \
+    X(extent, extent,                                                                             \
+      "width of a body along an axis between its outermost particles, or its radius")             \
+    X(turn, turn, "rotation angle of a body since the start, within half a turn")                 \
+    X(pieces, pieces, "number of pieces into which bodies are broken")                            \
+    X(fragments, fragments,                                                                       \
+      "number of fragments into which bodies have broken, failed particles aside")                \
+    X(largest_fragment, largest_fragment, "mass, size or velocity of the heaviest fragment")      \
+    X(length, length, "length of the heaviest fragment of a body along an axis, debris aside")    \
+    X(hole, hole, "diameter of the hole in a body about an axis; 0 if there is none")             \
+    X(crater, crater, "depth, diameter or volume of a crater below the original face of a body")  \
+    X(bulge, bulge, "how far a body has been pushed out of one of its faces")                     \
+    X(zone, zone, "diameter or shape of the part of a face in which a field reaches a value")     \
+    X(asymmetry, asymmetry,                                                                       \
+      "largest difference of a field from its mirror image, over its largest value")              \
+    X(radius, radius, "radius of a material circle or sphere, estimated from adjacent particles") \
+    X(shear_layer, shear_layer, "effective viscosity with which two sliding streams mix")         \
+    X(recorded, recorded, "number from the record of a probe")                                    \
+    X(blast, blast, "peak, arrival, duration or impulse of a blast wave at a probe")              \
+    X(event, event,                                                                               \
+      "time at which the solver does something that it does once: the stages of `afdmp`")         \
+    X(finite, field, "number of particles whose field is not a finite number")
 
-extern const struct parameter measure_field_table[], measure_quantile_table[];
-extern const struct parameter measure_front_table[], measure_width_table[],
-    measure_conserved_table[];
-extern const struct parameter measure_total_table[], measure_extent_table[], measure_turn_table[],
-    measure_pieces_table[], measure_asymmetry_table[], measure_radius_table[],
-    measure_shear_layer_table[], measure_recorded_table[], measure_fragments_table[],
-    measure_largest_fragment_table[], measure_length_table[], measure_hole_table[],
-    measure_crater_table[], measure_bulge_table[], measure_zone_table[], measure_blast_table[],
-    measure_event_table[];
-extern const struct measure_class measure_quantile, measure_total, measure_decay, measure_spread,
-    measure_extent, measure_turn, measure_pieces, measure_asymmetry, measure_radius,
-    measure_shear_layer;
-extern const struct measure_class measure_fragments, measure_largest_fragment, measure_length,
-    measure_hole, measure_crater, measure_bulge, measure_zone;
-extern const struct measure_class measure_mean, measure_minimum, measure_maximum, measure_l1,
-    measure_rms, measure_max_error, measure_contact_max, measure_contact_rms, measure_front,
-    measure_width, measure_conserved, measure_finite, measure_recorded, measure_blast,
-    measure_event;
+#define MEASURE_DECLARE(name, parameters, help)                   \
+    extern const struct parameter measure_##parameters##_table[]; \
+    extern const struct measure_class measure_##name;
+MEASURE_LIST(MEASURE_DECLARE)
+#undef MEASURE_DECLARE
+
+#define MEASURE_COUNT(name, parameters, help) +1
+enum { MEASURES = 0 MEASURE_LIST(MEASURE_COUNT) };
+extern const struct choice measure_choices[MEASURES];
 
 /* One particle as a measure sees it. */
 struct sample {

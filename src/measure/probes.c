@@ -9,17 +9,9 @@
 #include "base/memory.h"
 #include "model/simulation.h"
 
-/* The names are keys of a probe. */
-const struct choice probe_choices[PROBES] = {
-    {"tracer", "fields of one particle, which it follows", probe_tracer_table,
-     sizeof(struct probe_tracer), &probe_tracer},
-    {"gauge", "fields at a fixed position: means over the particles near it", probe_gauge_table,
-     sizeof(struct probe_gauge), &probe_gauge},
-    {"body", "motion of a body: mass, centre, momentum, rotation, energy, extents",
-     probe_body_table, sizeof(struct probe_body), &probe_body},
-    {"front", "position where a field first crosses a value, seen from one end",
-     measure_front_table, sizeof(struct measure_front), &probe_front},
-};
+#define PROBE_CHOICE(name, parameters, help) \
+    {#name, help, parameters##_table, sizeof(struct parameters), &probe_##name},
+const struct choice probe_choices[PROBES] = {PROBE_LIST(PROBE_CHOICE)};
 
 static const struct probe_class *class_of(const struct probe *probe)
 {
@@ -264,8 +256,7 @@ static struct error *pour(struct probe *probe, struct csv_mark *mark)
     errno = 0;
     const size_t bytes = (size_t)probe->text_bytes;
     const bool failed = (bytes && fwrite(probe->text, 1, bytes, file) < bytes) || fflush(file);
-    struct error *error =
-        failed ? error_new(ERROR_SYSTEM, "%s: %s", probe->path, strerror(errno)) : NULL;
+    struct error *error = failed ? file_error(probe->path, errno) : NULL;
     if (!error && mark)
         error = csv_extend(file, probe->path, mark);
     fclose(file);

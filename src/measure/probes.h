@@ -1,6 +1,7 @@
 /* Probes: what is recorded while a case runs, one table a probe: in memory where a check reads it,
  * and as probes/NAME.csv. A probe is a choice of the catalogue's kind "probe"; its thing is a
- * struct probe_class. To add one: its file probe_<name>.c, its class below, its line in probes.c.
+ * struct probe_class. To add one: its file probe_<name>.c, and below the struct of its parameters
+ * and its line in the list.
  * Source of what is recorded: Parshikov (2013), chapter 3: tracers, fronts at half amplitude. */
 #ifndef BOLIDE_PROBES_H
 #define BOLIDE_PROBES_H
@@ -67,11 +68,23 @@ struct probe_body {
     char *name;
 };
 
-enum { PROBES = 4 };
-extern const struct choice probe_choices[PROBES];
+/* X(name, parameters, help): a key of a probe, its struct <parameters> and <parameters>_table, and
+ * its probe_<name>, a struct probe_class. */
+#define PROBE_LIST(X)                                                                          \
+    X(tracer, probe_tracer, "fields of one particle, which it follows")                        \
+    X(gauge, probe_gauge, "fields at a fixed position: means over the particles near it")      \
+    X(body, probe_body, "motion of a body: mass, centre, momentum, rotation, energy, extents") \
+    X(front, measure_front, "position where a field first crosses a value, seen from one end")
 
-extern const struct parameter probe_tracer_table[], probe_gauge_table[], probe_body_table[];
-extern const struct probe_class probe_tracer, probe_gauge, probe_body, probe_front;
+#define PROBE_DECLARE(name, parameters, help)           \
+    extern const struct parameter parameters##_table[]; \
+    extern const struct probe_class probe_##name;
+PROBE_LIST(PROBE_DECLARE)
+#undef PROBE_DECLARE
+
+#define PROBE_COUNT(name, parameters, help) +1
+enum { PROBES = 0 PROBE_LIST(PROBE_COUNT) };
+extern const struct choice probe_choices[PROBES];
 
 /* All probes of a run. */
 struct probes {
