@@ -10,52 +10,42 @@
 #include "page/internal.h"
 #include "picture/picture.h"
 
-/* A column's head in quotes: `"pressure left error [Pa]"`. */
-static void put_head(FILE *file, const char *name, const char *what, const char *unit)
+static void put_runs(FILE *file, const void *content)
 {
-    char *head = text_format(*unit ? "%s%s [%s]" : "%s%s%s", name, what, unit);
-    fputc(',', file);
-    csv_put_text(file, head);
-    free(head);
-}
-
-static void put_number(FILE *file, double value)
-{
-    fputc(',', file);
-    if (isfinite(value))
-        csv_put_number(file, value);
-}
-
-static void put_runs(FILE *file, const struct study *study)
-{
+    const struct study *study = content;
     fputs("run,resolution [m],particles,seconds [s]", file);
     for (int k = 0; k < study->quantities; k++) {
         const struct study_quantity *quantity = &study->quantity[k];
-        if (quantity->kind != STUDY_NORM)
-            put_head(file, quantity->name, "", quantity->unit);
-        put_head(file, quantity->name, " error", quantity->unit);
-        put_head(file, quantity->name, " order", "");
+        if (quantity->kind != STUDY_NORM) {
+            fputc(',', file);
+            csv_put_named_head(file, quantity->name, "", quantity->unit);
+        }
+        fputc(',', file);
+        csv_put_named_head(file, quantity->name, " error", quantity->unit);
+        fputc(',', file);
+        csv_put_named_head(file, quantity->name, " order", "");
     }
     fputc('\n', file);
     for (int i = 0; i < study->runs; i++) {
         const struct study_run *run = &study->run[i];
         csv_put_text(file, run->name);
-        put_number(file, run->resolution);
+        csv_add_finite(file, run->resolution);
         fprintf(file, ",%lld", (long long)run->particles);
-        put_number(file, run->seconds);
+        csv_add_finite(file, run->seconds);
         for (int k = 0; k < study->quantities; k++) {
             const struct study_quantity *quantity = &study->quantity[k];
             if (quantity->kind != STUDY_NORM)
-                put_number(file, quantity->measured[i]);
-            put_number(file, quantity->error[i]);
-            put_number(file, quantity->order[i]);
+                csv_add_finite(file, quantity->measured[i]);
+            csv_add_finite(file, quantity->error[i]);
+            csv_add_finite(file, quantity->order[i]);
         }
         fputc('\n', file);
     }
 }
 
-static void put_orders(FILE *file, const struct study *study)
+static void put_orders(FILE *file, const void *content)
 {
+    const struct study *study = content;
     static const char *const kinds[] = {"norm", "exact value", "extrapolated value"};
     fputs("quantity,unit,error from,exact,order,approach,extrapolated,grid convergence index,"
           "at least,at most,verdict,source\n",
@@ -65,14 +55,14 @@ static void put_orders(FILE *file, const struct study *study)
         const struct extrapolation *extrapolation = &quantity->extrapolation;
         csv_put_text(file, quantity->name);
         fprintf(file, ",%s,%s", quantity->unit, kinds[quantity->kind]);
-        put_number(file, quantity->exact);
-        put_number(file, quantity->fitted);
+        csv_add_finite(file, quantity->exact);
+        csv_add_finite(file, quantity->fitted);
         fprintf(file, ",%s",
                 quantity->kind == STUDY_NORM ? "" : approach_name(extrapolation->approach));
-        put_number(file, extrapolation->limit);
-        put_number(file, extrapolation->index);
-        put_number(file, quantity->low);
-        put_number(file, quantity->high);
+        csv_add_finite(file, extrapolation->limit);
+        csv_add_finite(file, extrapolation->index);
+        csv_add_finite(file, quantity->low);
+        csv_add_finite(file, quantity->high);
         fputc(',', file);
         if (quantity->verdict_text)
             csv_put_text(file, quantity->verdict_text);
@@ -81,20 +71,6 @@ static void put_orders(FILE *file, const struct study *study)
             csv_put_text(file, quantity->source);
         fputc('\n', file);
     }
-}
-
-static struct error *write_table(const char *folder, const char *name, const struct study *study,
-                                 void (*put)(FILE *, const struct study *))
-{
-    FILE *file;
-    char *path = path_join(folder, name);
-    struct error *error = path ? file_begin(path, &file) : out_of_memory_for("a convergence study");
-    if (!error) {
-        put(file, study);
-        error = file_end(path, file);
-    }
-    free(path);
-    return error;
 }
 
 double study_scale(const struct study *study, const struct study_quantity *quantity)
@@ -173,8 +149,8 @@ static struct error *draw(const char *path, const struct study *study)
 struct error *study_write(const char *folder, const struct study *study)
 {
     TRY(folder_make(folder));
-    TRY(write_table(folder, "convergence.csv", study, put_runs));
-    TRY(write_table(folder, "convergence-orders.csv", study, put_orders));
+    TRY(file_write(folder, "convergence.csv", put_runs, study));
+    TRY(file_write(folder, "convergence-orders.csv", put_orders, study));
     char *path = path_join(folder, "convergence.png");
     struct error *error = path ? draw(path, study) : out_of_memory_for("a convergence study");
     free(path);

@@ -17,10 +17,8 @@ static bool is_among(const struct name_list *list, const char *name)
 
 static const struct order_input *order_of(const struct simulation_case *input, const char *name)
 {
-    for (int i = 0; i < input->convergence.order.count; i++)
-        if (!strcmp(input->convergence.order.names[i], name))
-            return case_order(input, i);
-    return NULL;
+    const int index = named_map_find(&input->convergence.order, name);
+    return index < 0 ? NULL : case_order(input, index);
 }
 
 static bool is_norm(const struct check_input *check)
@@ -150,14 +148,6 @@ static int compare_resolutions(const void *a, const void *b)
     return (one->resolution < other->resolution) - (one->resolution > other->resolution);
 }
 
-static const struct check_result *find_check(const struct verify_case *run, const char *name)
-{
-    for (int i = 0; i < run->result.checks.count; i++)
-        if (!strcmp(run->result.checks.item[i].name, name))
-            return &run->result.checks.item[i];
-    return NULL;
-}
-
 /* Errors and orders of QUANTITY, whose measured values are there. */
 static void find_orders(const struct study *study, const double *resolution,
                         struct study_quantity *quantity)
@@ -212,7 +202,7 @@ static struct error *take_runs(const struct verify_case *item, int count, struct
     for (int k = 0; k < study->quantities; k++) {
         struct study_quantity *quantity = &study->quantity[k];
         for (int i = 0; i < count; i++) {
-            const struct check_result *check = find_check(&item[i], quantity->name);
+            const struct check_result *check = verify_find_check(&item[i], quantity->name);
             quantity->measured[i] = check ? check->measured : NAN;
             if (check)
                 memcpy(quantity->unit, check->unit, sizeof quantity->unit);

@@ -23,12 +23,6 @@ struct bisection {
     struct search_result *result;
 };
 
-static const struct ranks *ranks_of(const struct bisection *bisection)
-{
-    static const struct ranks alone = {0, 1, false};
-    return bisection->options.running.ranks ? bisection->options.running.ranks : &alone;
-}
-
 /* The settings that make the case a sweep of one run with VALUE. Free *SWEEP. */
 static struct error *set_value(struct bisection *bisection, const char *value, char **sweep)
 {
@@ -44,14 +38,14 @@ static struct error *set_value(struct bisection *bisection, const char *value, c
 static struct error *find_check(const struct simulation_case *input, const char *check)
 {
     const struct named_map *checks = &input->checks;
-    for (int i = 0; i < checks->count; i++)
-        if (!strcmp(checks->names[i], check))
-            return check_has_limit(case_check(input, i))
-                       ? NULL
-                       : error_new(ERROR_INPUT,
-                                   "--check: \"%s\" has no limit: give it `at_most`, "
-                                   "`at_least` or `is` and `within`",
-                                   check);
+    const int found = named_map_find(checks, check);
+    if (found >= 0)
+        return check_has_limit(case_check(input, found))
+                   ? NULL
+                   : error_new(ERROR_INPUT,
+                               "--check: \"%s\" has no limit: give it `at_most`, `at_least` or "
+                               "`is` and `within`",
+                               check);
     const char *nearest = nearest_name(check, (const char *const *)checks->names, checks->count);
     return error_new(ERROR_INPUT, "--check: the case has no check \"%s\"%s%s%s", check,
                      nearest ? " (did you mean \"" : "", nearest ? nearest : "",
@@ -197,8 +191,9 @@ static struct error *write_runs(const struct bisection *bisection)
 {
     const struct verify_result *runs = &bisection->result->runs;
     const struct repetitions all = {runs->item, runs->count, NULL};
-    const bool writes = ranks_of(bisection)->rank == 0 && runs->count && runs->item[0].sweep_values;
-    return ranks_agree(ranks_of(bisection),
+    const bool writes =
+        verify_ranks(&bisection->options)->rank == 0 && runs->count && runs->item[0].sweep_values;
+    return ranks_agree(verify_ranks(&bisection->options),
                        writes ? sweep_write(bisection->folder, &all, &(struct check_results){0})
                               : NULL);
 }
@@ -221,7 +216,8 @@ static struct error *try_value(struct bisection *bisection, double value, bool *
     char text[96], *sweep = NULL;
     snprintf(text, sizeof text, "%.10g%s%s", value, *bisection->result->unit ? " " : "",
              bisection->result->unit);
-    struct error *error = ranks_agree(ranks_of(bisection), set_value(bisection, text, &sweep));
+    struct error *error =
+        ranks_agree(verify_ranks(&bisection->options), set_value(bisection, text, &sweep));
     if (!error)
         error = verify_case(bisection->path, bisection->name, bisection->folder,
                             &bisection->options, runs);
@@ -294,7 +290,7 @@ struct error *search_run(const char *path, const char *name, const char *folder,
         bisection.settings[i] = reading->settings[i];
     reading->settings = bisection.settings;
     reading->setting_count += 2;
-    struct error *error = ranks_agree(ranks_of(&bisection), prepare(&bisection));
+    struct error *error = ranks_agree(verify_ranks(options), prepare(&bisection));
     if (!error)
         error = bisect(&bisection);
     free(bisection.settings);

@@ -92,87 +92,59 @@ static bool is_first(const struct repetitions *repetitions, int run)
     return true;
 }
 
-static void put_head(FILE *file, const char *name, const char *what, const char *unit)
-{
-    char *head =
-        text_format("%s%s%s%s%s", name, what, unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
-    if (head)
-        csv_put_text(file, head);
-    free(head);
-}
-
 static void put_heads(FILE *file, const struct repetitions *repetitions,
                       const struct check_results *checks)
 {
     static const char *const what[] = {" mean", " deviation", " confidence"};
     const struct verify_case *run = &repetitions->runs[0];
-    const int entry = repetitions_entry(repetitions);
-    char unit[DIMENSION_TEXT];
-    for (int k = 0; k < run->sweep_values; k++) {
-        const char *text = sweep_unit(repetitions->runs, repetitions->count, k, unit);
-        if (run->sweep[k].entry == entry)
-            continue;
-        put_head(file, run->sweep[k].key, "", text ? text : "");
-        fputc(',', file);
-    }
+    for (int k = 0; k < run->sweep_values; k++)
+        if (run->sweep[k].entry != repetitions_entry(repetitions)) {
+            sweep_put_head(file, repetitions, k);
+            fputc(',', file);
+        }
     fputs("runs", file);
     for (int k = 0; k < checks->count; k++)
         for (size_t i = 0; i < COUNT_OF(what); i++) {
             fputc(',', file);
-            put_head(file, checks->item[k].name, what[i], checks->item[k].unit);
+            csv_put_named_head(file, checks->item[k].name, what[i], checks->item[k].unit);
         }
     fputc('\n', file);
-}
-
-static void put_number(FILE *file, double value)
-{
-    fputc(',', file);
-    if (!isnan(value))
-        csv_put_number(file, value);
 }
 
 static void put_row(FILE *file, const struct repetitions *repetitions, int run,
                     const struct check_results *checks)
 {
     const struct verify_case *item = &repetitions->runs[run];
-    const int entry = repetitions_entry(repetitions);
-    char unit[DIMENSION_TEXT];
     int runs = 0;
     for (int i = 0; i < repetitions->count; i++)
         runs += counts(repetitions, run, i);
-    for (int k = 0; k < item->sweep_values; k++) {
-        if (item->sweep[k].entry == entry)
-            continue;
-        if (sweep_unit(repetitions->runs, repetitions->count, k, unit))
-            csv_put_number(file, item->sweep[k].quantity.value);
-        else
-            csv_put_text(file, item->sweep[k].text);
-        fputc(',', file);
-    }
+    for (int k = 0; k < item->sweep_values; k++)
+        if (item->sweep[k].entry != repetitions_entry(repetitions)) {
+            sweep_put_value(file, repetitions, run, k);
+            fputc(',', file);
+        }
     fprintf(file, "%d", runs);
     for (int k = 0; k < checks->count; k++) {
         const struct statistic statistic =
             repetitions_of_check(repetitions, run, checks->item[k].name);
-        put_number(file, statistic.mean);
-        put_number(file, statistic.deviation);
-        put_number(file, statistic.confidence);
+        csv_add_finite(file, statistic.mean);
+        csv_add_finite(file, statistic.deviation);
+        csv_add_finite(file, statistic.confidence);
     }
     fputc('\n', file);
 }
 
+static void put_table(FILE *file, const void *content)
+{
+    const struct repetitions *repetitions = content;
+    const struct check_results *checks = sweep_checks(repetitions);
+    put_heads(file, repetitions, checks);
+    for (int run = 0; run < repetitions->count; run++)
+        if (is_first(repetitions, run))
+            put_row(file, repetitions, run, checks);
+}
+
 struct error *repetitions_write(const struct repetitions *repetitions, const char *folder)
 {
-    const struct check_results *checks = sweep_checks(repetitions->runs, repetitions->count);
-    FILE *file;
-    char *path = path_join(folder, statistics_table_name);
-    struct error *error = path ? file_begin(path, &file) : out_of_memory();
-    if (!error) {
-        put_heads(file, repetitions, checks);
-        for (int run = 0; run < repetitions->count; run++)
-            if (is_first(repetitions, run))
-                put_row(file, repetitions, run, checks);
-        error = file_end(path, file);
-    }
-    free(path);
-    return error;
+    return file_write(folder, statistics_table_name, put_table, repetitions);
 }

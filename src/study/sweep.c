@@ -14,64 +14,51 @@
 
 const char sweep_table_name[] = "sweep.csv";
 
-const char *sweep_unit(const struct verify_case *runs, int count, int index, char *buffer)
+const char *sweep_unit(const struct repetitions *sweep, int index, char *buffer)
 {
-    const struct quantity *first = &runs[0].sweep[index].quantity;
-    for (int i = 0; i < count; i++) {
-        const struct quantity *other = &runs[i].sweep[index].quantity;
-        if (isnan(other->value) || !dimension_equal(other->dimension, first->dimension))
+    const struct dimension dimension = sweep->runs[0].sweep[index].quantity.dimension;
+    for (int i = 0; i < sweep->count; i++) {
+        const struct quantity *other = &sweep->runs[i].sweep[index].quantity;
+        if (isnan(other->value) || !dimension_equal(other->dimension, dimension))
             return NULL;
     }
-    return dimension_text(first->dimension, buffer);
+    return dimension_text(dimension, buffer);
 }
 
-const struct check_results *sweep_checks(const struct verify_case *runs, int count)
+const struct check_results *sweep_checks(const struct repetitions *sweep)
 {
-    for (int i = 0; i < count; i++)
-        if (runs[i].result.checks.count)
-            return &runs[i].result.checks;
-    return &runs[0].result.checks;
+    for (int i = 0; i < sweep->count; i++)
+        if (sweep->runs[i].result.checks.count)
+            return &sweep->runs[i].result.checks;
+    return &sweep->runs[0].result.checks;
 }
 
-static void put_head(FILE *file, const char *name, const char *unit)
+void sweep_put_head(FILE *file, const struct repetitions *sweep, int index)
 {
-    char *head = unit && unit[0] ? text_format(",%s [%s]", name, unit) : text_format(",%s", name);
-    if (head) {
-        fputc(',', file);
-        csv_put_text(file, head + 1);
-    }
-    free(head);
+    char buffer[DIMENSION_TEXT];
+    const char *unit = sweep_unit(sweep, index, buffer);
+    csv_put_named_head(file, sweep->runs[0].sweep[index].key, "", unit ? unit : "");
 }
 
-static void put_heads(FILE *file, const struct verify_case *runs, int count)
+void sweep_put_value(FILE *file, const struct repetitions *sweep, int run, int index)
 {
-    char unit[DIMENSION_TEXT];
-    const struct check_results *checks = sweep_checks(runs, count);
-    fputs("run", file);
-    for (int k = 0; k < runs[0].sweep_values; k++)
-        put_head(file, runs[0].sweep[k].key, sweep_unit(runs, count, k, unit));
-    for (int k = 0; k < checks->count; k++) {
-        put_head(file, checks->item[k].name, checks->item[k].unit);
-        char *verdict = text_format("%s verdict", checks->item[k].name);
-        put_head(file, verdict ? verdict : "verdict", NULL);
-        free(verdict);
-    }
-    fputs(",verdict\n", file);
+    char buffer[DIMENSION_TEXT];
+    const struct sweep_value *value = &sweep->runs[run].sweep[index];
+    if (sweep_unit(sweep, index, buffer))
+        csv_put_number(file, value->quantity.value);
+    else
+        csv_put_text(file, value->text);
 }
 
-static void put_row(FILE *file, const struct verify_case *runs, int count,
-                    const struct verify_case *run)
+static void put_row(FILE *file, const struct repetitions *sweep, int index)
 {
-    char unit[DIMENSION_TEXT];
-    const struct check_results *checks = sweep_checks(runs, count);
+    const struct verify_case *run = &sweep->runs[index];
+    const struct check_results *checks = sweep_checks(sweep);
     const char *slash = strrchr(run->name, '/');
     csv_put_text(file, slash ? slash + 1 : run->name);
     for (int k = 0; k < run->sweep_values; k++) {
         fputc(',', file);
-        if (sweep_unit(runs, count, k, unit))
-            csv_put_number(file, run->sweep[k].quantity.value);
-        else
-            csv_put_text(file, run->sweep[k].text);
+        sweep_put_value(file, sweep, index, k);
     }
     for (int k = 0; k < checks->count; k++) {
         const struct check_result *check = verify_find_check(run, checks->item[k].name);
@@ -89,19 +76,24 @@ static void put_row(FILE *file, const struct verify_case *runs, int count,
     fprintf(file, ",%s\n", run->error ? "not finished" : run->passed ? "passed" : "FAILED");
 }
 
-static struct error *write_table(const char *folder, const struct verify_case *runs, int count)
+static void put_table(FILE *file, const void *content)
 {
-    FILE *file;
-    char *path = path_join(folder, sweep_table_name);
-    struct error *error = path ? file_begin(path, &file) : out_of_memory();
-    if (!error) {
-        put_heads(file, runs, count);
-        for (int i = 0; i < count; i++)
-            put_row(file, runs, count, &runs[i]);
-        error = file_end(path, file);
+    const struct repetitions *sweep = content;
+    const struct check_results *checks = sweep_checks(sweep);
+    fputs("run", file);
+    for (int k = 0; k < sweep->runs[0].sweep_values; k++) {
+        fputc(',', file);
+        sweep_put_head(file, sweep, k);
     }
-    free(path);
-    return error;
+    for (int k = 0; k < checks->count; k++) {
+        fputc(',', file);
+        csv_put_named_head(file, checks->item[k].name, "", checks->item[k].unit);
+        fputc(',', file);
+        csv_put_named_head(file, checks->item[k].name, " verdict", "");
+    }
+    fputs(",verdict\n", file);
+    for (int i = 0; i < sweep->count; i++)
+        put_row(file, sweep, i);
 }
 
 /* A run as a plot sees it. */
@@ -275,7 +267,7 @@ static struct error *draw_check(const char *folder, const struct repetitions *re
 {
     char unit[DIMENSION_TEXT];
     const int axis = axis_of(repetitions);
-    const char *x_unit = sweep_unit(repetitions->runs, repetitions->count, axis, unit);
+    const char *x_unit = sweep_unit(repetitions, axis, unit);
     char *file = text_format("%s.png", name);
     if (file)
         text_make_file_name(file);
@@ -294,7 +286,7 @@ static struct error *draw_check(const char *folder, const struct repetitions *re
 
 static struct error *draw_checks(const char *folder, const struct repetitions *repetitions)
 {
-    const struct check_results *checks = sweep_checks(repetitions->runs, repetitions->count);
+    const struct check_results *checks = sweep_checks(repetitions);
     struct dot *dots = memory_allocate((size_t)repetitions->count * sizeof *dots);
     struct error *error = dots ? folder_make(folder) : out_of_memory();
     for (int k = 0; k < checks->count && !error; k++)
@@ -311,19 +303,19 @@ static struct error *write_fits(const char *folder, const struct check_results *
     return error;
 }
 
-struct error *sweep_write(const char *folder, const struct repetitions *repetitions,
+struct error *sweep_write(const char *folder, const struct repetitions *sweep,
                           const struct check_results *fits)
 {
-    if (repetitions->count == 0)
+    if (sweep->count == 0)
         return NULL;
     TRY(folder_make(folder));
-    TRY(write_table(folder, repetitions->runs, repetitions->count));
-    if (repetitions->key)
-        TRY(repetitions_write(repetitions, folder));
+    TRY(file_write(folder, sweep_table_name, put_table, sweep));
+    if (sweep->key)
+        TRY(repetitions_write(sweep, folder));
     if (fits->count > 0)
         TRY(write_fits(folder, fits));
     char *pictures = path_join(folder, "pictures");
-    struct error *error = pictures ? draw_checks(pictures, repetitions) : out_of_memory();
+    struct error *error = pictures ? draw_checks(pictures, sweep) : out_of_memory();
     free(pictures);
     return error ? error : page_write(folder);
 }

@@ -9,11 +9,15 @@
 extern const char sweep_table_name[];
 
 /* The checks of the first run that has any: all runs have the same. */
-const struct check_results *sweep_checks(const struct verify_case *runs, int count);
+const struct check_results *sweep_checks(const struct repetitions *sweep);
 
 /* The unit of the swept value at INDEX where all runs have a quantity of one dimension; else
  * NULL. */
-const char *sweep_unit(const struct verify_case *runs, int count, int index, char *buffer);
+const char *sweep_unit(const struct repetitions *sweep, int index, char *buffer);
+
+/* Writes the head of the column of the swept value at INDEX, and the value of RUN. */
+void sweep_put_head(FILE *file, const struct repetitions *sweep, int index);
+void sweep_put_value(FILE *file, const struct repetitions *sweep, int run, int index);
 
 /* Writes the table of the runs into FOLDER, a row a run in SI units: the swept values, what each
  * check measured and its verdict, the verdict of the run; FITS, if there are any, as checks.csv;
@@ -21,7 +25,7 @@ const char *sweep_unit(const struct verify_case *runs, int count, int index, cha
  * something in two runs: the measured values as dots, one series for each choice of the other swept
  * values, the limits behind them where there is one series only, and means of repetitions with
  * their confidence. */
-struct error *sweep_write(const char *folder, const struct repetitions *repetitions,
+struct error *sweep_write(const char *folder, const struct repetitions *sweep,
                           const struct check_results *fits);
 
 #endif

@@ -42,7 +42,7 @@ char *verify_name(const char *path)
     return name;
 }
 
-static const struct ranks *ranks_of(const struct verify_options *options)
+const struct ranks *verify_ranks(const struct verify_options *options)
 {
     static const struct ranks alone = {0, 1, false};
     return options->running.ranks ? options->running.ranks : &alone;
@@ -51,7 +51,7 @@ static const struct ranks *ranks_of(const struct verify_options *options)
 bool verify_stop_requested(const struct verify_options *options)
 {
     const bool stop = options->running.stop && *options->running.stop;
-    return ranks_maximum(ranks_of(options), stop) > 0.0;
+    return ranks_maximum(verify_ranks(options), stop) > 0.0;
 }
 
 /* Collective: no rank reads a case that another cannot read. */
@@ -59,7 +59,7 @@ static struct error *read_case(const char *path, const struct case_options *read
                                const struct verify_options *options, struct simulation_case **input)
 {
     struct error *error =
-        ranks_agree(ranks_of(options), case_read(path, reading, options->catalogue, input));
+        ranks_agree(verify_ranks(options), case_read(path, reading, options->catalogue, input));
     if (error) {
         case_free(*input);
         *input = NULL;
@@ -199,7 +199,7 @@ static struct error *evaluate_sweep(const char *path, const char *folder,
     TRY(read_case(path, &reading, options, &input));
     struct error *error = is_whole ? fits_evaluate(input, runs, count, fits) : NULL;
     const struct repetitions repetitions = {runs, count, input->repetitions};
-    if (!error && folder && ranks_of(options)->rank == 0)
+    if (!error && folder && verify_ranks(options)->rank == 0)
         error = sweep_write(folder, &repetitions, fits);
     case_free(input);
     return error;
@@ -250,7 +250,7 @@ static struct error *run_all(const char *path, const char *name, const char *fol
 static struct error *lock_folder(const char *folder, const struct verify_options *options,
                                  struct results_lock *lock)
 {
-    if (!folder || ranks_of(options)->rank != 0)
+    if (!folder || verify_ranks(options)->rank != 0)
         return NULL;
     TRY(folder_make(folder));
     return results_lock(folder, lock);
@@ -265,7 +265,7 @@ static struct error *run_sweep(const char *path, const char *name, const char *f
         error = check_sweep(path, runs, options);
     if (!error)
         error = lock_folder(folder, options, &lock);
-    error = ranks_agree(ranks_of(options), error);
+    error = ranks_agree(verify_ranks(options), error);
     if (!error)
         error = run_all(path, name, folder, runs, options, result);
     results_unlock(&lock);
@@ -407,7 +407,7 @@ static struct error *run_and_record(const char *path, const char *name, const ch
                                     struct verify_result *result, struct error **moved)
 {
     const int first = result->count;
-    const struct ranks *ranks = ranks_of(options);
+    const struct ranks *ranks = verify_ranks(options);
     const bool first_rank = ranks->rank == 0;
     if (options->record)
         TRY(ranks_agree(ranks, first_rank ? record_check(path) : NULL));

@@ -65,6 +65,9 @@ struct error *verify_case(const char *path, const char *name, const char *folder
                           const struct verify_options *options, struct verify_result *result);
 void verify_result_free(struct verify_result *result);
 
+/* The ranks that run cases together. */
+const struct ranks *verify_ranks(const struct verify_options *options);
+
 /* Collective: whether any rank received a request to stop. */
 bool verify_stop_requested(const struct verify_options *options);
 
