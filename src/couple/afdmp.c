@@ -197,25 +197,6 @@ static struct error *afdmp_state(void *solver, struct visitor *visitor)
 
 static void afdmp_destroy(void *solver) { afdmp_free_parts(solver); }
 
-static double afdmp_bytes(const void *parameters, int dimension)
-{
-    const struct afdmp_parameters *of = parameters;
-    return mpm_class.bytes(&of->mpm, dimension);
-}
-
-static double afdmp_step(const void *parameters, int dimension, const struct material *material,
-                         const struct point *point, double diameter)
-{
-    const struct afdmp_parameters *of = parameters;
-    return mpm_class.step(&of->mpm, dimension, material, point, diameter);
-}
-
-static void afdmp_coarsen(void *parameters, double factor)
-{
-    struct afdmp_parameters *of = parameters;
-    mpm_class.coarsen(&of->mpm, factor);
-}
-
 const struct solver_class afdmp_class = {.size = sizeof(struct afdmp),
                                          .boundaries = BOUNDARIES_CLOSED | BOUNDARY_PARTS |
                                                        1u << BOUNDARY_TRANSMITTING,
@@ -226,8 +207,8 @@ const struct solver_class afdmp_class = {.size = sizeof(struct afdmp),
                                          .advance = afdmp_advance,
                                          .state = afdmp_state,
                                          .destroy = afdmp_destroy,
-                                         .bytes = afdmp_bytes,
+                                         .bytes = mpm_bytes,
                                          .count = afdmp_count,
-                                         .step = afdmp_step,
-                                         .coarsen = afdmp_coarsen,
+                                         .step = mpm_step,
+                                         .coarsen = mpm_coarsen,
                                          .judge = afdmp_judge};

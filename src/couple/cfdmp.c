@@ -200,25 +200,6 @@ static struct error *cfdmp_state(void *solver, struct visitor *visitor)
 
 static void cfdmp_destroy(void *solver) { cfdmp_free_parts(solver); }
 
-static double cfdmp_bytes(const void *parameters, int dimension)
-{
-    const struct cfdmp_parameters *of = parameters;
-    return mpm_class.bytes(&of->mpm, dimension);
-}
-
-static double cfdmp_step(const void *parameters, int dimension, const struct material *material,
-                         const struct point *point, double diameter)
-{
-    const struct cfdmp_parameters *of = parameters;
-    return mpm_class.step(&of->mpm, dimension, material, point, diameter);
-}
-
-static void cfdmp_coarsen(void *parameters, double factor)
-{
-    struct cfdmp_parameters *of = parameters;
-    mpm_class.coarsen(&of->mpm, factor);
-}
-
 static bool is_no_gas(const struct material *material) { return !gas_computes(material); }
 
 static void cfdmp_judge(const void *parameters, const struct simulation *simulation,
@@ -245,8 +226,8 @@ const struct solver_class cfdmp_class = {
     .advance = cfdmp_advance,
     .state = cfdmp_state,
     .destroy = cfdmp_destroy,
-    .bytes = cfdmp_bytes,
+    .bytes = mpm_bytes,
     .count = cfdmp_count,
     .judge = cfdmp_judge,
-    .step = cfdmp_step,
-    .coarsen = cfdmp_coarsen};
+    .step = mpm_step,
+    .coarsen = mpm_coarsen};

@@ -16,11 +16,11 @@ struct couple_region {
 };
 
 struct cfdmp_parameters {
+    struct mpm_parameters mpm;   /* first: the class takes functions of mpm */
     struct couple_region region; /* of material points; not given: around the solids */
     int64_t overlap;             /* cells */
     int transport;               /* enum cfdmp_transport */
     double wake;                 /* ratio of pressures */
-    struct mpm_parameters mpm;
     struct gas_parameters gas;
 };
 
@@ -31,10 +31,10 @@ extern const struct solver_class cfdmp_class;
 enum afdmp_map { AFDMP_CONSERVATIVE, AFDMP_CONSISTENT, AFDMP_TEXT };
 
 struct afdmp_parameters {
+    struct mpm_parameters mpm;   /* first, as above */
     struct couple_region region; /* of the solids; not given: around them */
     int map;                     /* enum afdmp_map */
     double wake;                 /* ratio of pressures */
-    struct mpm_parameters mpm;
     struct gas_parameters gas;
 };
 

@@ -7,7 +7,13 @@
 
 #include "base/memory.h"
 
-struct error *owned_error(void) { return out_of_memory_for("the parts of the coupling"); }
+void part_surround(struct mpm *mpm, struct mpm_outside *outside, const struct gas_cut *cut)
+{
+    memcpy(outside->low, cut->low, sizeof outside->low);
+    memcpy(outside->high, cut->high, sizeof outside->high);
+    memcpy(outside->open, cut->open, sizeof outside->open);
+    mpm_surround(mpm, outside);
+}
 
 void *owned_new(struct owned *owned, size_t size)
 {
@@ -36,7 +42,7 @@ struct error *part_begin(const struct part_maker *maker, struct part *part,
     part->place.is_part = true;
     part->elsewhere = owned_new(maker->owned, (size_t)input->bodies.count);
     part->place.elsewhere = part->elsewhere;
-    return part->elsewhere ? NULL : owned_error();
+    return part->elsewhere ? NULL : out_of_memory_for("the parts of the coupling");
 }
 
 /* Cells from LOW to HIGH; infinite in dimensions that the case has not. */
@@ -106,7 +112,7 @@ struct error *part_create(const struct part_maker *maker, struct part *part,
     TRY(error);
     part->solver = owned_new(maker->owned, type->size);
     if (!part->solver)
-        return owned_error();
+        return out_of_memory_for("the parts of the coupling");
     return type->create(part->solver, &part->simulation, parameters);
 }
 

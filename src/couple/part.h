@@ -23,7 +23,6 @@ struct owned {
 /* Zeroed; NULL when there is none. */
 void *owned_new(struct owned *owned, size_t size);
 void owned_free(struct owned *owned);
-struct error *owned_error(void);
 
 /* What the functions below make places in: whole cells of EDGE in DIMENSION dimensions. */
 struct part_maker {
@@ -119,5 +118,8 @@ extern const struct parameter region_table[];
         PARAMETER(TABLE, T, gas, OPTIONAL, "options of the gas", .table = gas_table)
 struct error *region_check(const struct couple_region *region, const char *key,
                            const struct simulation_case *input, const struct cell_blocks *cells);
+
+/* Puts OUTSIDE, filled but for its box, around MPM in the box of CUT. */
+void part_surround(struct mpm *mpm, struct mpm_outside *outside, const struct gas_cut *cut);
 
 #endif

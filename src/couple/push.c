@@ -94,17 +94,9 @@ struct error *cfdmp_take_pushes(struct cfdmp *cfdmp)
 
 void cfdmp_surround(struct cfdmp *cfdmp)
 {
-    struct mpm_outside *outside = &cfdmp->outside;
-    for (int axis = 0; axis < 3; axis++) {
-        outside->low[axis] = cfdmp->cut.low[axis];
-        outside->high[axis] = cfdmp->cut.high[axis];
-        for (int side = 0; side < 2; side++)
-            outside->open[axis][side] = cfdmp->cut.open[axis][side];
-    }
-    outside->of = cfdmp;
-    outside->pressure = pressure_at;
-    outside->pushed = note_push;
-    mpm_surround(cfdmp->mpm, outside);
+    cfdmp->outside =
+        (struct mpm_outside){.of = cfdmp, .pressure = pressure_at, .pushed = note_push};
+    part_surround(cfdmp->mpm, &cfdmp->outside, &cfdmp->cut);
 }
 
 void cfdmp_note_rest(struct cfdmp *cfdmp)

@@ -337,22 +337,14 @@ static struct error *make_rim(struct afdmp *afdmp, const struct gas_cut *box, st
     afdmp_each_beside(afdmp, box, count_beside, &rim->cells);
     rim->rest = owned_new(&afdmp->owned, (size_t)rim->cells * sizeof *rim->rest);
     rim->bits = owned_new(&afdmp->owned, (size_t)rim->cells * sizeof *rim->bits);
-    return rim->rest && rim->bits ? NULL : owned_error();
+    return rim->rest && rim->bits ? NULL : out_of_memory_for("the parts of the coupling");
 }
 
 static void surround_nest(struct afdmp *afdmp)
 {
-    struct mpm_outside *outside = &afdmp->outside;
-    for (int axis = 0; axis < 3; axis++) {
-        outside->low[axis] = afdmp->nest_cut.low[axis];
-        outside->high[axis] = afdmp->nest_cut.high[axis];
-        for (int side = 0; side < 2; side++)
-            outside->open[axis][side] = afdmp->nest_cut.open[axis][side];
-    }
-    outside->of = afdmp;
-    outside->pressure = pressure_outside;
-    outside->pushed = take_push;
-    mpm_surround(afdmp->nest_mpm, outside);
+    afdmp->outside =
+        (struct mpm_outside){.of = afdmp, .pressure = pressure_outside, .pushed = take_push};
+    part_surround(afdmp->nest_mpm, &afdmp->outside, &afdmp->nest_cut);
 }
 
 void afdmp_count(const void *parameters, const struct simulation_case *input,

@@ -150,7 +150,7 @@ struct error *marker_put_states(const struct marker_grid *grid)
     struct gas_markers *markers = gas->markers;
     double *last = memory_allocate((size_t)markers->cells * sizeof *last + 1);
     if (!last)
-        return marker_no_memory();
+        return out_of_memory_for("markers");
     for (int m = 0; m < 2; m++)
         memset(markers->volume[m], 0, (size_t)markers->cells * sizeof(double));
     for (int64_t k = 0; k < markers->count; k++)

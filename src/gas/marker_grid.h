@@ -78,8 +78,6 @@ BOLIDE_INLINE int64_t marker_place_of(const struct marker_grid *grid,
     return marker_place_at(grid, at);
 }
 
-struct error *marker_no_memory(void);
-
 /* Of marker_seeds.c: one more marker; EACH markers along each axis in the cell at PLACE; how many
  * of both materials places have; removes those that are deleted; which places are near the
  * interface; more markers where there are few, and fewer where there are many, with room for

@@ -36,7 +36,7 @@ struct error *marker_add(struct gas_markers *markers, const double at[3], bool s
 {
     if (!memory_reserve((void **)&markers->marker, &markers->capacity, markers->count + 1,
                         markers->count, sizeof *markers->marker))
-        return marker_no_memory();
+        return out_of_memory_for("markers");
     markers->marker[markers->count++] =
         (struct gas_marker){{at[0], at[1], at[2]}, second, 0.0, 0.0};
     return NULL;

@@ -7,8 +7,6 @@
 #include "base/memory.h"
 #include "material/material.h"
 
-struct error *marker_no_memory(void) { return out_of_memory_for("markers"); }
-
 void gas_count_heat(struct gas *gas)
 {
     for (int m = 0; m < 2; m++)
@@ -105,7 +103,7 @@ struct error *gas_move_markers(struct gas *gas, const struct simulation *simulat
     struct gas_markers *markers = gas->markers;
     int32_t(*number)[2] = memory_allocate((size_t)markers->cells * sizeof *number + 1);
     if (!number)
-        return marker_no_memory();
+        return out_of_memory_for("markers");
     marker_find_volumes(&grid, number);
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int64_t k = 0; k < markers->count; k++)
@@ -124,7 +122,7 @@ static struct error *reserve(struct gas *gas)
     const struct marker_grid grid = marker_grid_of(gas);
     const struct cell_blocks *cells = gas->cells;
     if (!markers)
-        return marker_no_memory();
+        return out_of_memory_for("markers");
     *markers = (struct gas_markers){.cells = grid.count[0] * grid.count[1] * grid.count[2]};
     const size_t size = (size_t)markers->cells;
     markers->cell = memory_allocate(size * sizeof *markers->cell + 1);
@@ -134,11 +132,11 @@ static struct error *reserve(struct gas *gas)
         markers->energy[m] = memory_allocate(size * sizeof(double) + 1);
         markers->volume[m] = memory_allocate(size * sizeof(double) + 1);
         if (!markers->energy[m] || !markers->volume[m])
-            return marker_no_memory();
+            return out_of_memory_for("markers");
         memset(markers->energy[m], 0, size * sizeof(double));
     }
     if (!markers->cell || !markers->near || !markers->before)
-        return marker_no_memory();
+        return out_of_memory_for("markers");
     for (int32_t i = 0; i < cells->count; i++) {
         int64_t at[3] = {0, 0, 0};
         for (int axis = 0; axis < grid.dimension; axis++)
@@ -191,7 +189,7 @@ struct error *gas_settle_markers(struct gas *gas)
     struct gas_markers *markers = gas->markers;
     int32_t(*number)[2] = memory_allocate((size_t)markers->cells * sizeof *number + 1);
     if (!number)
-        return marker_no_memory();
+        return out_of_memory_for("markers");
     for (int64_t k = 0; k < markers->count; k++)
         if (marker_place_of(&grid, &markers->marker[k]) < 0)
             markers->marker[k].deleted = 1.0;
@@ -242,7 +240,7 @@ struct error *gas_visit_markers(struct gas *gas, struct visitor *visitor)
                          (long long)markers->count, (long long)visitor->most);
     if (!memory_reserve((void **)&markers->marker, &markers->capacity, markers->count + 1,
                         minimum(known, markers->count), sizeof *markers->marker))
-        return marker_no_memory();
+        return out_of_memory_for("markers");
     TRY(visitor->visit(visitor, "markers/marker", NUMBER_DOUBLE, markers->marker, markers->count,
                        (int)(sizeof(struct gas_marker) / sizeof(double))));
     TRY(visitor->visit(visitor, "markers/first", NUMBER_DOUBLE, markers->energy[0], markers->cells,

@@ -168,7 +168,7 @@ static void mpm_destroy(void *solver)
     }
 }
 
-static double mpm_bytes(const void *parameters, int dimension)
+double mpm_bytes(const void *parameters, int dimension)
 {
     const struct mpm_parameters *of = parameters;
     struct mpm_parameters most = *of; /* what is left to the method may need its fields */
@@ -194,8 +194,8 @@ static double mpm_bytes(const void *parameters, int dimension)
            numbers * sizeof(double) / particles;
 }
 
-static double mpm_step(const void *parameters, int dimension, const struct material *material,
-                       const struct point *point, double diameter)
+double mpm_step(const void *parameters, int dimension, const struct material *material,
+                const struct point *point, double diameter)
 {
     const struct mpm_parameters *of = parameters;
     (void)dimension;
@@ -207,7 +207,7 @@ static double mpm_step(const void *parameters, int dimension, const struct mater
     return courant * edge / any_material_evaluate(material, &at).sound_long;
 }
 
-static void mpm_coarsen(void *parameters, double factor)
+void mpm_coarsen(void *parameters, double factor)
 {
     struct mpm_parameters *of = parameters;
     of->cell *= factor;

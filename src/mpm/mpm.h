@@ -33,6 +33,12 @@ struct mpm_parameters {
 extern const struct parameter mpm_table[];
 extern const struct solver_class mpm_class;
 
+/* Those of the class, for couplings whose parameters begin with those of mpm. */
+double mpm_bytes(const void *parameters, int dimension);
+double mpm_step(const void *parameters, int dimension, const struct material *material,
+                const struct point *point, double diameter);
+void mpm_coarsen(void *parameters, double factor);
+
 /* Why its total energy drifts, for couplings, too. */
 extern const char mpm_energy_lost[];
 
