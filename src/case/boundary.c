@@ -4,8 +4,6 @@
 #include "material/material.h"
 #include "shape/shape.h"
 
-static const char *const axis_names[] = {"x", "y", "z", NULL};
-static const char *const side_names[] = {"low", "high", NULL};
 static const char *const kind_names[] = {[BOUNDARY_REFLECTING] = "reflecting",
                                          [BOUNDARY_SYMMETRY] = "symmetry",
                                          [BOUNDARY_TRANSMITTING] = "transmitting",
@@ -35,10 +33,10 @@ const struct parameter case_boundary_table[] = {
               "no face, a body at rest that blocks the cells whose centres it contains",
               .names = kind_names),
     PARAMETER(CHOICE, struct boundary_input, axis, OPTIONAL,
-              "the axis normal to the face; none for a rigid body", .names = axis_names),
+              "the axis normal to the face; none for a rigid body", .names = parameter_axes),
     PARAMETER(CHOICE, struct boundary_input, side, OPTIONAL,
               "which end of the bodies the face is at; none for a periodic axis",
-              .names = side_names),
+              .names = parameter_sides),
     PARAMETER(NUMBER, struct boundary_input, at, OPTIONAL,
               "position of the face on the axis; bodies are cut there. Default: that of `domain`, "
               "and without one where the bodies end",
@@ -185,7 +183,7 @@ static void check_radius(struct checking *checking, const struct boundary_input 
         case_wrong(checking, "axis", "x is the radius, which does not repeat");
     else if (boundary->kind == BOUNDARY_OUTFLOW && low)
         case_wrong(checking, "side", "nothing flows out through the axis of symmetry");
-    else if (boundary_closes(boundary) &&
+    else if (boundary_kind_closes(boundary->kind) &&
              (low ? boundary->at != 0.0 && !isnan(boundary->at) : boundary->at <= 0.0))
         case_wrong(checking, "at", "x is a radius, which begins at 0 m: %s",
                    low ? "leave this boundary out" : "put this boundary above it");

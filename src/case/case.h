@@ -345,10 +345,10 @@ struct error *case_write(const struct simulation_case *input, FILE *file);
 /* `reflecting`: the kind of a boundary. */
 const char *boundary_kind_name(int kind);
 
-/* Whether BOUNDARY closes the part of its face that it names. */
-static inline bool boundary_closes(const struct boundary_input *boundary)
+/* Whether a boundary of KIND closes the part of its face that it names. */
+static inline bool boundary_kind_closes(int kind)
 {
-    return boundary->kind == BOUNDARY_REFLECTING || boundary->kind == BOUNDARY_SYMMETRY;
+    return kind == BOUNDARY_REFLECTING || kind == BOUNDARY_SYMMETRY;
 }
 
 /* A face and where it stands in the case, for messages. */
@@ -400,59 +400,29 @@ bool detonation_lights(const struct simulation_case *input, int index, int body)
 double detonation_arrival(const struct simulation_case *input, int body, struct vec3 place);
 
 /* The items of a case's maps. */
-static inline struct material_input *case_material(const struct simulation_case *c, int index)
-{
-    return (struct material_input *)c->materials.items + index;
-}
-static inline struct body_input *case_body(const struct simulation_case *c, int index)
-{
-    return (struct body_input *)c->bodies.items + index;
-}
+#define CASE_ITEM(name, map)                                                                   \
+    static inline struct name##_input *case_##name(const struct simulation_case *c, int index) \
+    {                                                                                          \
+        return (struct name##_input *)c->map.items + index;                                    \
+    }
+CASE_ITEM(material, materials)
+CASE_ITEM(body, bodies)
+CASE_ITEM(boundary, boundaries)
+CASE_ITEM(load, loads)
+CASE_ITEM(contact, contacts)
+CASE_ITEM(detonation, detonations)
+CASE_ITEM(probe, probes)
+CASE_ITEM(profile, profiles)
+CASE_ITEM(order, convergence.order)
+CASE_ITEM(fit, fits)
+CASE_ITEM(expected_warning, expected)
+CASE_ITEM(check, checks)
+#undef CASE_ITEM
+
 /* The material of a body. */
 static inline const struct material *body_material(const struct simulation_case *c, int body)
 {
     return case_material(c, case_body(c, body)->material_index)->material;
-}
-static inline struct boundary_input *case_boundary(const struct simulation_case *c, int index)
-{
-    return (struct boundary_input *)c->boundaries.items + index;
-}
-static inline struct load_input *case_load(const struct simulation_case *c, int index)
-{
-    return (struct load_input *)c->loads.items + index;
-}
-static inline struct contact_input *case_contact(const struct simulation_case *c, int index)
-{
-    return (struct contact_input *)c->contacts.items + index;
-}
-static inline struct detonation_input *case_detonation(const struct simulation_case *c, int index)
-{
-    return (struct detonation_input *)c->detonations.items + index;
-}
-static inline struct probe_input *case_probe(const struct simulation_case *c, int index)
-{
-    return (struct probe_input *)c->probes.items + index;
-}
-static inline struct profile_input *case_profile(const struct simulation_case *c, int index)
-{
-    return (struct profile_input *)c->profiles.items + index;
-}
-static inline struct order_input *case_order(const struct simulation_case *c, int index)
-{
-    return (struct order_input *)c->convergence.order.items + index;
-}
-static inline struct fit_input *case_fit(const struct simulation_case *c, int index)
-{
-    return (struct fit_input *)c->fits.items + index;
-}
-static inline struct expected_warning_input *case_expected(const struct simulation_case *c,
-                                                           int index)
-{
-    return (struct expected_warning_input *)c->expected.items + index;
-}
-static inline struct check_input *case_check(const struct simulation_case *c, int index)
-{
-    return (struct check_input *)c->checks.items + index;
 }
 
 #endif

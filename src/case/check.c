@@ -353,7 +353,7 @@ static void check_profile(struct checking *checking, int index)
 static void check_expected(struct checking *checking, int index)
 {
     const struct simulation_case *input = checking->input;
-    const struct expected_warning_input *expected = case_expected(input, index);
+    const struct expected_warning_input *expected = case_expected_warning(input, index);
     for (int i = 0; i < expected->of.count; i++)
         case_find_name(checking, &input->materials, "material", expected->of.names[i], "of");
     if (expected->reason && !expected->reason[0])

@@ -144,7 +144,7 @@ void case_check_texts(struct checking *checking)
     checking->map = "expected_warnings";
     for (int i = 0; i < input->expected.count; i++) {
         checking->name = input->expected.names[i];
-        check_text(checking, "reason", case_expected(input, i)->reason, TEXT_MAX_BYTES);
+        check_text(checking, "reason", case_expected_warning(input, i)->reason, TEXT_MAX_BYTES);
     }
     checking->map = "fits";
     for (int i = 0; i < input->fits.count; i++) {

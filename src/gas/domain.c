@@ -183,7 +183,8 @@ void gas_find_faces(const struct simulation *simulation, const struct cell_block
         else if (boundary->kind == BOUNDARY_INFLOW || boundary->part.choice)
             face[boundary->side] = CELL_FACE_FILLED;
         else if (face[boundary->side] != CELL_FACE_FILLED)
-            face[boundary->side] = boundary_closes(boundary) ? CELL_FACE_MIRROR : CELL_FACE_COPIES;
+            face[boundary->side] =
+                boundary_kind_closes(boundary->kind) ? CELL_FACE_MIRROR : CELL_FACE_COPIES;
     }
 }
 
@@ -275,7 +276,8 @@ static struct error *fill_plane(const struct gas *gas, const struct simulation *
             row_place(cells, block, first, second, i + j * rows, at);
             at[axis] = (double)(filled->side ? cells->high : cells->low)[axis] * edge;
             const int b = boundary_at(input, axis, filled->side, vec3_make(at[0], at[1], at[2]));
-            const bool mirror = b < 0 ? closed : boundary_closes(case_boundary(input, b));
+            const bool mirror =
+                b < 0 ? closed : boundary_kind_closes(case_boundary(input, b)->kind);
             if (b >= 0 && case_boundary(input, b)->kind == BOUNDARY_INFLOW) {
                 /* the state is one of the cell outside */
                 at[axis] = ((double)filled->at + 0.5) * edge;

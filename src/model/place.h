@@ -15,10 +15,7 @@ struct face {
     int boundary;    /* of the case, that says so; -1: none */
 };
 
-BOLIDE_INLINE bool face_closes(const struct face *face)
-{
-    return face->kind == BOUNDARY_REFLECTING || face->kind == BOUNDARY_SYMMETRY;
-}
+BOLIDE_INLINE bool face_closes(const struct face *face) { return boundary_kind_closes(face->kind); }
 BOLIDE_INLINE bool face_lets_out(const struct face *face) { return face->kind == BOUNDARY_OUTFLOW; }
 
 struct place {

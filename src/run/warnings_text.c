@@ -242,7 +242,7 @@ static const char *expected(const struct simulation_case *input, enum warning_ki
                             int material)
 {
     for (int i = 0; i < input->expected.count; i++) {
-        const struct expected_warning_input *item = case_expected(input, i);
+        const struct expected_warning_input *item = case_expected_warning(input, i);
         bool fits = item->of.count == 0 || material < 0;
         for (int k = 0; k < item->of.count && !fits; k++)
             fits = !strcmp(item->of.names[k], input->materials.names[material]);
@@ -252,12 +252,19 @@ static const char *expected(const struct simulation_case *input, enum warning_ki
     return NULL;
 }
 
-char *warning_line(const struct warnings *warnings, const struct simulation *simulation, int index)
+/* The reason for which the case expects what memory INDEX has. */
+static const char *reason_of(const struct warnings *warnings, const struct simulation *simulation,
+                             int index)
 {
     const enum warning_kind kind = kind_of(warnings, index);
+    return expected(simulation->problem->input, kind,
+                    kind < WARNING_ENERGY ? index / WARNING_ENERGY : -1);
+}
+
+char *warning_line(const struct warnings *warnings, const struct simulation *simulation, int index)
+{
     const struct warning_memory *memory = &warnings->memory[index];
-    const int material = kind < WARNING_ENERGY ? index / WARNING_ENERGY : -1;
-    const bool is_expected = expected(simulation->problem->input, kind, material) != NULL;
+    const bool is_expected = reason_of(warnings, simulation, index) != NULL;
     char time[48], *line = NULL;
     char *text = is_expected ? warning_name(warnings, simulation, index)
                              : warning_text(warnings, simulation, index);
@@ -271,38 +278,27 @@ char *warning_line(const struct warnings *warnings, const struct simulation *sim
     return line;
 }
 
+/* Adds the warning of KIND with NAME and TEXT, which it takes, for the REASON that the case gives
+ * (NULL: none); false when memory is out. */
+static bool add(enum warning_kind kind, char *name, char *text, const char *reason,
+                struct warning_results *results)
+{
+    struct warning *warning = &results->item[results->count++];
+    *warning = (struct warning){kind, name, text, text_copy(reason)};
+    results->unexpected += !reason;
+    return name && text && (warning->expected || !reason);
+}
+
 /* What was found before the run, of SEVERITY, as warnings of KIND. */
 static bool add_found(const struct findings *findings, enum severity severity,
                       enum warning_kind kind, struct warning_results *results)
 {
-    const char *reason = expected(findings->input, kind, -1);
     bool done = true;
-    for (int k = 0; k < findings_count(findings, severity) && done; k++) {
-        struct warning *warning = &results->item[results->count++];
-        *warning = (struct warning){
-            .kind = kind,
-            .name = text_copy(kinds[kind].name),
-            .text = text_format("%s: %s", kinds[kind].name, findings_text(findings, severity, k)),
-            .expected = reason ? text_copy(reason) : NULL};
-        results->unexpected += !reason;
-        done = warning->name && warning->text && (warning->expected || !reason);
-    }
+    for (int k = 0; k < findings_count(findings, severity) && done; k++)
+        done = add(kind, text_copy(kinds[kind].name),
+                   text_format("%s: %s", kinds[kind].name, findings_text(findings, severity, k)),
+                   expected(findings->input, kind, -1), results);
     return done;
-}
-
-static bool add(const struct warnings *warnings, const struct simulation *simulation, int index,
-                struct warning_results *results)
-{
-    const enum warning_kind kind = kind_of(warnings, index);
-    const char *reason = expected(simulation->problem->input, kind,
-                                  kind < WARNING_ENERGY ? index / WARNING_ENERGY : -1);
-    struct warning *warning = &results->item[results->count++];
-    *warning = (struct warning){.kind = kind,
-                                .name = warning_name(warnings, simulation, index),
-                                .text = warning_text(warnings, simulation, index),
-                                .expected = reason ? text_copy(reason) : NULL};
-    results->unexpected += !reason;
-    return warning->name && warning->text && (warning->expected || !reason);
 }
 
 struct error *warnings_conclude(const struct warnings *warnings,
@@ -323,7 +319,9 @@ struct error *warnings_conclude(const struct warnings *warnings,
     done = results->item != NULL;
     for (int k = 0; k < warnings->memories && done; k++)
         if (warnings->memory[k].count > 0.0)
-            done = add(warnings, simulation, k, results);
+            done = add(kind_of(warnings, k), warning_name(warnings, simulation, k),
+                       warning_text(warnings, simulation, k), reason_of(warnings, simulation, k),
+                       results);
     done = done && add_found(findings, FINDING_COARSE, WARNING_COARSE, results) &&
            add_found(findings, FINDING_NO_EFFECT, WARNING_INPUT, results);
     return done ? NULL : out_of_memory_for("warnings");
