@@ -97,11 +97,11 @@ checks:
     for axis in range(dimension):
         name = "xyz"[axis]
         if axis == along and draw.random() < 0.3:
-            walls += f"  back: {{mirror: {name}, at: {low[axis] * EDGE:.9g} m, side: low}}\n"
+            walls += f"  back: {{kind: reflecting, axis: {name}, at: {low[axis] * EDGE:.9g} m, side: low}}\n"
         if axis != along and not whole and not (geometry == "axisymmetric" and axis == 0):
-            walls += f"  {name}0: {{mirror: {name}, at: 0 m, side: low}}\n"
+            walls += f"  {name}0: {{kind: reflecting, axis: {name}, at: 0 m, side: low}}\n"
         if axis != along and draw.random() < 0.5:
-            walls += f"  {name}1: {{mirror: {name}, at: {high[axis] * EDGE:.9g} m, side: high}}\n"
+            walls += f"  {name}1: {{kind: reflecting, axis: {name}, at: {high[axis] * EDGE:.9g} m, side: high}}\n"
     text += f"boundaries:\n{walls}" if walls else ""
     return text, (f"coupled {'afdmp' if alternating else 'cfdmp'}",
                   f"coupled {geometry}", f"coupled {charge}", f"coupled {plate}",

@@ -95,7 +95,7 @@ checks:
             continue
         x = "xyz"[across_axis]
         if not axial:
-            walls += f"  {x}0: {{mirror: {x}, at: 0 m, side: low}}\n"
-        walls += f"  {x}1: {{mirror: {x}, at: {size[1]:.9g} m, side: high}}\n"
+            walls += f"  {x}0: {{kind: reflecting, axis: {x}, at: 0 m, side: low}}\n"
+        walls += f"  {x}1: {{kind: reflecting, axis: {x}, at: {size[1]:.9g} m, side: high}}\n"
     text += f"boundaries:\n{walls}" if walls else ""
     return text, (f"porous {material}", f"porous {geometry}", f"porous {layout}")
