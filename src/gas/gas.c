@@ -434,8 +434,8 @@ static void gas_judge(const void *parameters, const struct simulation *simulatio
         of->method.index == GAS_LAX_WENDROFF
             ? "this method is here for comparison: leave `method` out for the default, "
               "muscl-hancock, which holds where it stops"
-            : "with a pressure below zero the gas is colder than its equation of state reaches; else "
-              "a smaller step may hold: halve `courant`";
+            : "with a pressure below zero the gas is colder than its equation of state reaches; "
+              "else a smaller step may hold: halve `courant`";
 }
 
 static const struct field_row *const field_tables[] = {field_rows, NULL};
