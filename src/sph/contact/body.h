@@ -178,131 +178,173 @@ BOLIDE_INLINE void find_contacts(struct pair_kind kind, const double *own,
     solve_contacts(kind, own, lanes, contacts);
 }
 
-/* Adds up what contacts give: those of CONTACTS, or where that is NULL the usual ones, acoustic and
- * under no law, which are solved on the way. Made of the same parts as contact_pair, which gcc does
- * not turn into vectors here: its structs go through memory, at half the speed. */
-BOLIDE_INLINE void add_contacts(struct pair_kind kind, const double *own, const struct lanes *lanes,
-                                const struct pairs *pairs, const struct contacts *contacts,
-                                struct sums *sums)
+/* The contact of a pair: stress and velocity along e, traction and velocity across it, and how
+ * particle i turns there. */
+struct met {
+    double stress, jump;
+    struct vec3 across_u, turn, shear, sliding, own_shear;
+};
+
+/* The solution along e of lane K, and the weights of that across; CONTACTS as in add_contacts. */
+BOLIDE_INLINE struct contact_weights solve_along(int z, int across_z, const double *own,
+                                                 const struct lanes *lanes,
+                                                 const struct contacts *contacts,
+                                                 const struct between *b, struct met *met, int k)
+{
+    if (contacts) {
+        met->stress = contacts->stress[k];
+        met->jump = contacts->jump[k];
+        return (struct contact_weights){contacts->left[k], contacts->right[k],
+                                        contacts->compliance[k], contacts->impedance[k]};
+    }
+    const struct two_inverses inverse =
+        inverses_of_sums(own[z], lanes->field[z][k], own[across_z], lanes->field[across_z][k]);
+    const struct contact_weights along =
+        contact_weights_of(own[z], lanes->field[z][k], inverse.first);
+    met->stress = contact_stress(along, b->i, b->j, b->u);
+    met->jump = contact_velocity_jump(along, b->u, b->j - b->i);
+    return contact_weights_of(own[across_z], lanes->field[across_z][k], inverse.second);
+}
+
+/* The same across e. */
+BOLIDE_INLINE void solve_across(struct pair_kind kind, const double *own, const struct lanes *lanes,
+                                const struct pairs *pairs, const struct between *b,
+                                struct contact_weights across, struct met *met, int k)
+{
+    const int dimension = kind.dimension, d = record_diameter(dimension), spin = record_spin(kind);
+    const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
+    const double r = pairs->r[k];
+    met->across_u = vec3_sub(b->du, vec3_scale(b->u, e));
+    if (kind.turn) {
+        double share = own[d] / (own[d] + lanes->field[d][k]);
+        struct vec3 spin_i = spin_from(dimension, own + spin, 1);
+        struct vec3 spin_j = spin_from(dimension, &lanes->field[spin][k], LANES);
+        met->turn = vec3_scale(share * r, vec3_cross(spin_i, e));
+        met->across_u =
+            vec3_sub(met->across_u,
+                     vec3_add(met->turn, vec3_scale((1.0 - share) * r, vec3_cross(spin_j, e))));
+    }
+    if (kind.shear) {
+        met->own_shear = vec3_sub(b->ti, vec3_scale(b->i, e));
+        struct vec3 aj = vec3_sub(b->tj, vec3_scale(b->j, e));
+        met->shear = pair_shear(across, met->own_shear, aj, met->across_u);
+        met->sliding = pair_sliding(across, met->across_u, vec3_sub(aj, met->own_shear));
+    }
+}
+
+/* What a contact law and breaking leave of the contact of lane K. */
+BOLIDE_INLINE void limit_contact(struct pair_kind kind, const double *own,
+                                 const struct lanes *lanes, const struct pairs *pairs,
+                                 const struct between *b, struct met *met, struct sums *sums, int k)
+{
+    const bool shear = kind.shear && kind.dimension > 1;
+    const int z = record_impedance(kind.dimension, shear);
+    const int breaking = kind.breaks ? record_breaking(kind) : 0;
+    double opened = met->stress > 0.0 ? lanes->open[k] : 0.0, slips = lanes->slip[k];
+    if (kind.breaks) {
+        const double tension = minimum(own[breaking], lanes->field[breaking][k]);
+        double torn = met->stress > tension ? 1.0 : 0.0, broken = torn;
+        if (shear) {
+            const double most = minimum(own[breaking + 1], lanes->field[breaking + 1][k]);
+            const double sheared = vec3_dot(met->shear, met->shear) > most * most ? 1.0 : 0.0;
+            torn = maximum(torn, met->stress > 0.0 ? sheared : 0.0);
+            broken = maximum(torn, sheared);
+            slips = maximum(slips, sheared);
+        }
+        sums->broken[k] += pairs->weight[k] * broken;
+        opened = maximum(opened, torn);
+    }
+    met->jump = pair_free_velocity(opened > 0.0, own[z], b->i, met->jump);
+    met->stress = opened > 0.0 ? 0.0 : met->stress;
+    if (shear) {
+        bool free = opened > 0.0 || slips > 0.0;
+        met->shear = vec3_scale(free ? 0.0 : 1.0, met->shear);
+        met->sliding = pair_free_sliding(free, own[z + 1], met->own_shear, met->sliding);
+    }
+}
+
+/* Adds traction T and velocity W, each times its weight, of a pair along E. */
+BOLIDE_INLINE void add_tensors(int dimension, struct vec3 t, struct vec3 w, struct vec3 e,
+                               struct sums *sums, int k)
+{
+    sums->traction[0][k] += t.x;
+    sums->gradient[0][k] += w.x * e.x;
+    if (dimension > 1) {
+        sums->traction[1][k] += t.y;
+        sums->gradient[1][k] += w.x * e.y;
+        sums->gradient[3][k] += w.y * e.x;
+        sums->gradient[4][k] += w.y * e.y;
+    }
+    if (dimension > 2) {
+        sums->traction[2][k] += t.z;
+        sums->gradient[2][k] += w.x * e.z;
+        sums->gradient[5][k] += w.y * e.z;
+        sums->gradient[6][k] += w.z * e.x;
+        sums->gradient[7][k] += w.z * e.y;
+        sums->gradient[8][k] += w.z * e.z;
+    }
+}
+
+/* Adds the contact of lane K: that of CONTACTS, or where that is NULL the usual one, acoustic and
+ * under no law, which is solved on the way. */
+BOLIDE_INLINE void add_contact(struct pair_kind kind, const double *own, const struct lanes *lanes,
+                               const struct pairs *pairs, const struct contacts *contacts,
+                               struct sums *sums, int k)
 {
     const bool usual = contacts == NULL;
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
-    const int d = record_diameter(dimension), z = record_impedance(dimension, shear);
-    const int depth = record_depth(kind), spin = record_spin(kind);
-    const int breaking = kind.breaks ? record_breaking(kind) : 0;
-#pragma omp simd simdlen(8)
-    for (int k = 0; k < LANES; k++) {
-        const double r = pairs->r[k], weight = pairs->weight[k];
-        const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
-        const struct between b = between_of(kind, own, lanes, k, e);
-        double stress, jump;
-        struct contact_weights across;
-        if (usual) {
-            const int across_z = shear ? z + 1 : z;
-            const struct two_inverses inverse = inverses_of_sums(
-                own[z], lanes->field[z][k], own[across_z], lanes->field[across_z][k]);
-            const struct contact_weights along =
-                contact_weights_of(own[z], lanes->field[z][k], inverse.first);
-            across = contact_weights_of(own[across_z], lanes->field[across_z][k], inverse.second);
-            stress = contact_stress(along, b.i, b.j, b.u);
-            jump = contact_velocity_jump(along, b.u, b.j - b.i);
+    const int z = record_impedance(dimension, shear), depth = record_depth(kind);
+    const double weight = pairs->weight[k];
+    const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
+    const struct between b = between_of(kind, own, lanes, k, e);
+    const struct vec3 none = {0.0, 0.0, 0.0};
+    struct met met = {0.0, 0.0, none, none, none, none, none};
+    const struct contact_weights across =
+        solve_along(z, shear ? z + 1 : z, own, lanes, contacts, &b, &met, k);
+    if (dimension > 1)
+        solve_across(kind, own, lanes, pairs, &b, across, &met, k);
+    if (!usual)
+        limit_contact(kind, own, lanes, pairs, &b, &met, sums, k);
+    struct vec3 t = vec3_scale(met.stress, e), w = vec3_scale(met.jump, e);
+    if (dimension > 1) {
+        if (shear) {
+            t = vec3_add(t, met.shear);
+            w = vec3_add(w, met.sliding);
+            if (kind.turn)
+                w = vec3_add(w, met.turn);
         } else {
-            across = (struct contact_weights){contacts->left[k], contacts->right[k],
-                                              contacts->compliance[k], contacts->impedance[k]};
-            stress = contacts->stress[k];
-            jump = contacts->jump[k];
-        }
-        const struct vec3 none = {0.0, 0.0, 0.0};
-        struct vec3 across_u = none, ta = none, wa = none, ai = none;
-        struct vec3 own_turn = none; /* what the spin of i adds at the contact */
-        if (dimension > 1) {
-            across_u = vec3_sub(b.du, vec3_scale(b.u, e));
-            if (kind.turn) {
-                double share = own[d] / (own[d] + lanes->field[d][k]);
-                struct vec3 spin_i = spin_from(dimension, own + spin, 1);
-                struct vec3 spin_j = spin_from(dimension, &lanes->field[spin][k], LANES);
-                own_turn = vec3_scale(share * r, vec3_cross(spin_i, e));
-                across_u = vec3_sub(
-                    across_u,
-                    vec3_add(own_turn, vec3_scale((1.0 - share) * r, vec3_cross(spin_j, e))));
-            }
-            if (shear) {
-                ai = vec3_sub(b.ti, vec3_scale(b.i, e));
-                struct vec3 aj = vec3_sub(b.tj, vec3_scale(b.j, e));
-                ta = pair_shear(across, ai, aj, across_u);
-                wa = pair_sliding(across, across_u, vec3_sub(aj, ai));
-            }
-        }
-        if (!usual) {
-            double opened = stress > 0.0 ? lanes->open[k] : 0.0, slips = lanes->slip[k];
-            if (kind.breaks) {
-                const double tension = minimum(own[breaking], lanes->field[breaking][k]);
-                double torn = stress > tension ? 1.0 : 0.0, broken = torn;
-                if (shear) {
-                    const double most = minimum(own[breaking + 1], lanes->field[breaking + 1][k]);
-                    const double sheared = vec3_dot(ta, ta) > most * most ? 1.0 : 0.0;
-                    torn = maximum(torn, stress > 0.0 ? sheared : 0.0);
-                    broken = maximum(torn, sheared);
-                    slips = maximum(slips, sheared);
-                }
-                sums->broken[k] += weight * broken;
-                opened = maximum(opened, torn);
-            }
-            jump = pair_free_velocity(opened > 0.0, own[z], b.i, jump);
-            stress = opened > 0.0 ? 0.0 : stress;
-            if (shear) {
-                bool free = opened > 0.0 || slips > 0.0;
-                ta = vec3_scale(free ? 0.0 : 1.0, ta);
-                wa = pair_free_sliding(free, own[z + 1], ai, wa);
-            }
-        }
-        struct vec3 t = vec3_scale(stress, e), w = vec3_scale(jump, e);
-        if (dimension > 1) {
-            if (shear) {
-                t = vec3_add(t, ta);
-                w = vec3_add(w, wa);
-                if (kind.turn)
-                    w = vec3_add(w, own_turn);
-            } else {
-                w = vec3_add(w, vec3_scale(0.5, across_u));
-            }
-        }
-        double force_weight = weight;
-        if (kind.depth) {
-            double pair_depth = 0.5 * fabs(own[depth] + lanes->field[depth][k]);
-            force_weight = weight * pair_depth;
-            sums->hoop[0][k] += weight * (pair_depth - own[depth]) * e.x;
-            sums->hoop[1][k] += weight * pairs->x[k] * e.x;
-            sums->hoop[2][k] += weight * pairs->x[k] * fabs(e.x);
-        }
-        double power = force_weight * vec3_dot(t, w);
-        t = vec3_scale(force_weight, t);
-        w = vec3_scale(weight, w);
-        sums->power[k] += power;
-        if (!usual) {
-            sums->weight[k] += weight;
-            sums->drift[0][k] += w.x;
-            sums->drift[1][k] += w.y;
-            sums->drift[2][k] += w.z;
-        }
-        sums->traction[0][k] += t.x;
-        sums->gradient[0][k] += w.x * e.x;
-        if (dimension > 1) {
-            sums->traction[1][k] += t.y;
-            sums->gradient[1][k] += w.x * e.y;
-            sums->gradient[3][k] += w.y * e.x;
-            sums->gradient[4][k] += w.y * e.y;
-        }
-        if (dimension > 2) {
-            sums->traction[2][k] += t.z;
-            sums->gradient[2][k] += w.x * e.z;
-            sums->gradient[5][k] += w.y * e.z;
-            sums->gradient[6][k] += w.z * e.x;
-            sums->gradient[7][k] += w.z * e.y;
-            sums->gradient[8][k] += w.z * e.z;
+            w = vec3_add(w, vec3_scale(0.5, met.across_u));
         }
     }
+    double force_weight = weight;
+    if (kind.depth) {
+        double pair_depth = 0.5 * fabs(own[depth] + lanes->field[depth][k]);
+        force_weight = weight * pair_depth;
+        sums->hoop[0][k] += weight * (pair_depth - own[depth]) * e.x;
+        sums->hoop[1][k] += weight * pairs->x[k] * e.x;
+        sums->hoop[2][k] += weight * pairs->x[k] * fabs(e.x);
+    }
+    sums->power[k] += force_weight * vec3_dot(t, w);
+    w = vec3_scale(weight, w);
+    if (!usual) {
+        sums->weight[k] += weight;
+        sums->drift[0][k] += w.x;
+        sums->drift[1][k] += w.y;
+        sums->drift[2][k] += w.z;
+    }
+    add_tensors(dimension, vec3_scale(force_weight, t), w, e, sums, k);
+}
+
+/* The same of all lanes. It is made of the same parts as contact_pair, which gcc does not turn into
+ * vectors here: its structs go through memory, at half the speed. */
+BOLIDE_INLINE void add_contacts(struct pair_kind kind, const double *own, const struct lanes *lanes,
+                                const struct pairs *pairs, const struct contacts *contacts,
+                                struct sums *sums)
+{
+#pragma omp simd simdlen(8)
+    for (int k = 0; k < LANES; k++)
+        add_contact(kind, own, lanes, pairs, contacts, sums, k);
 }
 
 #endif

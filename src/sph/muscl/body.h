@@ -309,18 +309,22 @@ BOLIDE_INLINE void add_volume(struct muscl_kind kind, const struct pairs *pairs,
     sums[at.exchange][k] += 0.5 * (1.0 + pair->compression) * weight * lead;
 }
 
-/* Solves the Riemann problem of lane K and adds it to the sums. */
-BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const double *own,
-                               const struct lanes *lanes, const struct pairs *pairs,
-                               double (*sums)[LANES], int k)
+/* The contact of a pair, what limited it, and the velocity across the axis. */
+struct solved_pair {
+    struct pair_contact star;
+    struct pair_limits limits;
+    struct vec3 sliding;
+};
+
+/* Solves the Riemann problem of lane K. */
+BOLIDE_INLINE struct solved_pair solve_pair(struct muscl_kind kind, bool with_law,
+                                            const double *own, const struct lanes *lanes,
+                                            const struct pairs *pairs, int k)
 {
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
-    const int z = muscl_impedance(kind), q = muscl_shock_slope(kind), m = muscl_material(kind);
-    const int compression = muscl_compression(kind);
-    const struct layout at = layout_of(kind);
+    const int z = muscl_impedance(kind), q = muscl_shock_slope(kind);
     const struct pair_law law = {STAR_SHOCK, shear, true, with_law};
-    const double per_own = dimension > 1 ? 1.0 / own[compression] : 1.0, own_m = own[m];
     const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
     struct pair_side left = {.impedance = own[z],
                              .shock_slope = own[q],
@@ -351,7 +355,25 @@ BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const doub
         left.carried.shear = pairs->share[6][k];
         right.carried.shear = pairs->share[7][k];
     }
-    const struct pair_contact star = contact_pair(&left, &right, &difference, limits, law);
+    const struct solved_pair solved = {contact_pair(&left, &right, &difference, limits, law),
+                                       limits, difference.sliding};
+    return solved;
+}
+
+/* Solves the Riemann problem of lane K and adds it to the sums. */
+BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const double *own,
+                               const struct lanes *lanes, const struct pairs *pairs,
+                               double (*sums)[LANES], int k)
+{
+    const int dimension = kind.dimension, m = muscl_material(kind);
+    const bool shear = kind.shear && dimension > 1;
+    const int z = muscl_impedance(kind), q = muscl_shock_slope(kind);
+    const int compression = muscl_compression(kind);
+    const struct layout at = layout_of(kind);
+    const double per_own = dimension > 1 ? 1.0 / own[compression] : 1.0, own_m = own[m];
+    const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
+    const struct solved_pair solved = solve_pair(kind, with_law, own, lanes, pairs, k);
+    const struct pair_contact star = solved.star;
     struct vec3 t = vec3_scale(star.stress, n), w = vec3_scale(star.velocity, n);
     if (shear)
         t = vec3_add(t, star.shear);
@@ -361,7 +383,7 @@ BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const doub
     const bool driven = muscl_driven(maximum(own_m, lanes->field[m][k]));
     const struct vec3 middle = vec3_scale(0.5 * pairs->along_u[k], n);
     const struct vec3 halfway =
-        dimension > 1 ? vec3_add(middle, vec3_scale(0.5, difference.sliding)) : middle;
+        dimension > 1 ? vec3_add(middle, vec3_scale(0.5, solved.sliding)) : middle;
     w = vec3_make(driven ? halfway.x : w.x, driven ? halfway.y : w.y, driven ? halfway.z : w.z);
     /* A gas carries no tension. Two sides that separate faster than both expand into vacuum have
      * lost contact: the pair then counts neither in velocity gradients nor in volumes. For an ideal
@@ -369,8 +391,8 @@ BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const doub
     const double parting = pairs->along_u[k];
     const double pull =
         maximum(fabs(own_m), fabs(lanes->field[m][k])) < MUSCL_GAS ? 0.0 : star.stress;
-    const double faster = minimum(parting * left.shock_slope - 8.0 * left.impedance,
-                                  parting * right.shock_slope - 8.0 * right.impedance);
+    const double faster = minimum(parting * own[q] - 8.0 * own[z],
+                                  parting * lanes->field[q][k] - 8.0 * lanes->field[z][k]);
     const double holds = pull > 0.0 ? 0.0 : 1.0;
     const double meets = minimum(pull, faster) > 0.0 ? 0.0 : 1.0;
     const double weight = pairs->weight[k], moves = meets * weight;
@@ -391,9 +413,9 @@ BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const doub
                 vec3_scale(moves, vector_from(dimension, &pairs->e[0][k], LANES)));
     if (dimension > 1) {
         /* Bodies keep their volumes where they part, and where they slide past each other. */
-        const double counts = star.stress == 0.0 ? 1.0 - limits.open : meets;
+        const double counts = star.stress == 0.0 ? 1.0 - solved.limits.open : meets;
         const struct vec3 moved = vec3_add(vec3_scale(pairs->along_u[k], n),
-                                           vec3_scale(1.0 - limits.slip, difference.sliding));
+                                           vec3_scale(1.0 - solved.limits.slip, solved.sliding));
         const double ratio = per_own * lanes->field[compression][k], by = square(ratio);
         const double like = counts * minimum(by, 1.0) / maximum(by, 1.0);
         const struct volume_pair volume = {.counts = counts,
