@@ -211,9 +211,8 @@ static void cfdmp_judge(const void *parameters, const struct simulation *simulat
     coarse_cells(&judgement->findings, edge);
     coarse_gases(&judgement->findings, edge);
     judgement->energy_lost = mpm_energy_lost;
-    judgement->instead =
-        "a face of the region in a charge that burns may be the cause: let the region "
-        "hold the charge or leave it out; else halve `courant` of both parts";
+    judgement->instead = "let the region hold a charge that burns or leave it out; else halve "
+                         "`courant` of both parts";
     judgement->room = cfdmp_room(of, simulation->problem->input);
     judgement->narrow = is_no_gas;
 }

@@ -85,13 +85,6 @@ BOLIDE_INLINE struct mixture mixture_of(const struct eos *const eos[2], const do
     return mixture;
 }
 
-/* rho e, J/m^3, at a PRESSURE. */
-BOLIDE_INLINE double mixture_energy(const struct mixture *mixture, double pressure)
-{
-    const struct mixture_part *part = mixture->part;
-    return part[0].weight * (pressure - part[0].cold) + part[1].weight * (pressure - part[1].cold);
-}
-
 /* The pressure at ENERGY, rho e. */
 BOLIDE_INLINE double mixture_pressure(const struct mixture *mixture, double energy)
 {

@@ -14,6 +14,13 @@
 
 enum { CELLS = 200, NUMBERS = GAS_NUMBERS + PARTS, STEPS = 1000 };
 
+/* rho e, J/m^3, at a PRESSURE. */
+static double mixture_energy(const struct mixture *mixture, double pressure)
+{
+    const struct mixture_part *part = mixture->part;
+    return part[0].weight * (pressure - part[0].cold) + part[1].weight * (pressure - part[1].cold);
+}
+
 static const double pressure = 1e8, courant = 0.8, whole[2] = {1.0, 1.0};
 
 struct ring {

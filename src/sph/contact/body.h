@@ -291,20 +291,18 @@ BOLIDE_INLINE void add_contact(struct pair_kind kind, const double *own, const s
                                const struct pairs *pairs, const struct contacts *contacts,
                                struct sums *sums, int k)
 {
-    const bool usual = contacts == NULL;
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
     const int z = record_impedance(dimension, shear), depth = record_depth(kind);
     const double weight = pairs->weight[k];
     const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
     const struct between b = between_of(kind, own, lanes, k, e);
-    const struct vec3 none = {0.0, 0.0, 0.0};
-    struct met met = {0.0, 0.0, none, none, none, none, none};
+    struct met met = {.stress = 0.0};
     const struct contact_weights across =
         solve_along(z, shear ? z + 1 : z, own, lanes, contacts, &b, &met, k);
     if (dimension > 1)
         solve_across(kind, own, lanes, pairs, &b, across, &met, k);
-    if (!usual)
+    if (contacts)
         limit_contact(kind, own, lanes, pairs, &b, &met, sums, k);
     struct vec3 t = vec3_scale(met.stress, e), w = vec3_scale(met.jump, e);
     if (dimension > 1) {
@@ -327,7 +325,7 @@ BOLIDE_INLINE void add_contact(struct pair_kind kind, const double *own, const s
     }
     sums->power[k] += force_weight * vec3_dot(t, w);
     w = vec3_scale(weight, w);
-    if (!usual) {
+    if (contacts) {
         sums->weight[k] += weight;
         sums->drift[0][k] += w.x;
         sums->drift[1][k] += w.y;

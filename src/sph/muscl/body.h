@@ -355,9 +355,8 @@ BOLIDE_INLINE struct solved_pair solve_pair(struct muscl_kind kind, bool with_la
         left.carried.shear = pairs->share[6][k];
         right.carried.shear = pairs->share[7][k];
     }
-    const struct solved_pair solved = {contact_pair(&left, &right, &difference, limits, law),
-                                       limits, difference.sliding};
-    return solved;
+    return (struct solved_pair){contact_pair(&left, &right, &difference, limits, law), limits,
+                                difference.sliding};
 }
 
 /* Solves the Riemann problem of lane K and adds it to the sums. */
@@ -366,7 +365,6 @@ BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const doub
                                double (*sums)[LANES], int k)
 {
     const int dimension = kind.dimension, m = muscl_material(kind);
-    const bool shear = kind.shear && dimension > 1;
     const int z = muscl_impedance(kind), q = muscl_shock_slope(kind);
     const int compression = muscl_compression(kind);
     const struct layout at = layout_of(kind);
@@ -375,7 +373,7 @@ BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const doub
     const struct solved_pair solved = solve_pair(kind, with_law, own, lanes, pairs, k);
     const struct pair_contact star = solved.star;
     struct vec3 t = vec3_scale(star.stress, n), w = vec3_scale(star.velocity, n);
-    if (shear)
+    if (kind.shear && dimension > 1)
         t = vec3_add(t, star.shear);
     if (dimension > 1)
         w = vec3_add(w, star.sliding);
