@@ -211,8 +211,9 @@ static void cfdmp_judge(const void *parameters, const struct simulation *simulat
     coarse_cells(&judgement->findings, edge);
     coarse_gases(&judgement->findings, edge);
     judgement->energy_lost = mpm_energy_lost;
-    judgement->instead = "let the region hold a charge that burns or leave it out; else halve "
-                         "`courant` of both parts";
+    judgement->instead =
+        "if a face of the region cuts a charge that burns, let the region hold the "
+        "charge or leave it out";
     judgement->room = cfdmp_room(of, simulation->problem->input);
     judgement->narrow = is_no_gas;
 }
