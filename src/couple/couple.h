@@ -23,6 +23,7 @@ struct cfdmp_parameters {
     double wake;                 /* ratio of pressures */
     struct gas_parameters gas;
 };
+static_assert(offsetof(struct cfdmp_parameters, mpm) == 0, "mpm reads its own there");
 
 /* `solver: {cfdmp: {...}}`. */
 extern const struct parameter cfdmp_table[];
@@ -37,6 +38,7 @@ struct afdmp_parameters {
     double wake;                 /* ratio of pressures */
     struct gas_parameters gas;
 };
+static_assert(offsetof(struct afdmp_parameters, mpm) == 0, "mpm reads its own there");
 
 /* `solver: {afdmp: {...}}`. */
 extern const struct parameter afdmp_table[];
