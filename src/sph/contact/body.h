@@ -180,16 +180,16 @@ BOLIDE_INLINE void find_contacts(struct pair_kind kind, const double *own,
 
 /* The contact of a pair: stress and velocity along e, traction and velocity across it, and how
  * particle i turns there. */
-struct met {
+struct solved {
     double stress, jump;
     struct vec3 across_u, turn, shear, sliding, own_shear;
 };
 
-/* The solution along e of lane K, and the weights of that across; CONTACTS as in add_contacts. */
+/* The solution along e of lane K, and the weights of that across; CONTACTS as in add_contact. */
 BOLIDE_INLINE struct contact_weights solve_along(int z, int across_z, const double *own,
                                                  const struct lanes *lanes,
                                                  const struct contacts *contacts,
-                                                 const struct between *b, struct met *met, int k)
+                                                 const struct between *b, struct solved *met, int k)
 {
     if (contacts) {
         met->stress = contacts->stress[k];
@@ -209,7 +209,7 @@ BOLIDE_INLINE struct contact_weights solve_along(int z, int across_z, const doub
 /* The same across e. */
 BOLIDE_INLINE void solve_across(struct pair_kind kind, const double *own, const struct lanes *lanes,
                                 const struct pairs *pairs, const struct between *b,
-                                struct contact_weights across, struct met *met, int k)
+                                struct contact_weights across, struct solved *met, int k)
 {
     const int dimension = kind.dimension, d = record_diameter(dimension), spin = record_spin(kind);
     const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
@@ -235,7 +235,8 @@ BOLIDE_INLINE void solve_across(struct pair_kind kind, const double *own, const 
 /* What a contact law and breaking leave of the contact of lane K. */
 BOLIDE_INLINE void limit_contact(struct pair_kind kind, const double *own,
                                  const struct lanes *lanes, const struct pairs *pairs,
-                                 const struct between *b, struct met *met, struct sums *sums, int k)
+                                 const struct between *b, struct solved *met, struct sums *sums,
+                                 int k)
 {
     const bool shear = kind.shear && kind.dimension > 1;
     const int z = record_impedance(kind.dimension, shear);
@@ -297,7 +298,7 @@ BOLIDE_INLINE void add_contact(struct pair_kind kind, const double *own, const s
     const double weight = pairs->weight[k];
     const struct vec3 e = vector_from(dimension, &pairs->e[0][k], LANES);
     const struct between b = between_of(kind, own, lanes, k, e);
-    struct met met = {.stress = 0.0};
+    struct solved met = {.stress = 0.0};
     const struct contact_weights across =
         solve_along(z, shear ? z + 1 : z, own, lanes, contacts, &b, &met, k);
     if (dimension > 1)
@@ -334,8 +335,8 @@ BOLIDE_INLINE void add_contact(struct pair_kind kind, const double *own, const s
     add_tensors(dimension, vec3_scale(force_weight, t), w, e, sums, k);
 }
 
-/* The same of all lanes. It is made of the same parts as contact_pair, which gcc does not turn into
- * vectors here: its structs go through memory, at half the speed. */
+/* The same of all lanes. contact_pair has the same parts, but gcc makes no vectors of it here: its
+ * structs go through memory, at half the speed. */
 BOLIDE_INLINE void add_contacts(struct pair_kind kind, const double *own, const struct lanes *lanes,
                                 const struct pairs *pairs, const struct contacts *contacts,
                                 struct sums *sums)
