@@ -130,7 +130,7 @@ struct error *cfdmp_fill_band(struct cfdmp *cfdmp)
     struct error *error = looking.solid ? find_solid(&looking) : NULL;
     if (!error && !memory_reserve((void **)&cfdmp->sums, &cfdmp->sums_capacity,
                                   cfdmp->band_cells + 1, 0, sizeof *cfdmp->sums))
-        error = out_of_memory_for("the parts of the coupling");
+        error = out_of_memory_for("the coupling");
     TRY(ranks_agree(cfdmp->ranks, error));
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (int64_t n = 0; n < cfdmp->band_cells; n++)

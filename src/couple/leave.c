@@ -137,9 +137,9 @@ struct error *cfdmp_take_out(struct cfdmp *cfdmp)
     int64_t count = 0;
     struct error *error = NULL;
     if (!part_pick(&cfdmp->leaving, p->count, cfdmp->mpm_part.simulation.threads, has_left, cfdmp))
-        error = out_of_memory_for("the parts of the coupling");
+        error = out_of_memory_for("the coupling");
     else if (!(own = memory_allocate(((size_t)cfdmp->leaving.count + 1) * sizeof *own)))
-        error = out_of_memory_for("the parts of the coupling");
+        error = out_of_memory_for("the coupling");
     for (int64_t k = 0; own && k < cfdmp->leaving.count; k++) {
         const int32_t i = cfdmp->leaving.index[k];
         if (particles_is_deleted(p, i)) /* gone through an outflow */

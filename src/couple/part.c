@@ -42,7 +42,7 @@ struct error *part_begin(const struct part_maker *maker, struct part *part,
     part->place.is_part = true;
     part->elsewhere = owned_new(maker->owned, (size_t)input->bodies.count);
     part->place.elsewhere = part->elsewhere;
-    return part->elsewhere ? NULL : out_of_memory_for("the parts of the coupling");
+    return part->elsewhere ? NULL : out_of_memory_for("the coupling");
 }
 
 /* Cells from LOW to HIGH; infinite in dimensions that the case has not. */
@@ -112,7 +112,7 @@ struct error *part_create(const struct part_maker *maker, struct part *part,
     TRY(error);
     part->solver = owned_new(maker->owned, type->size);
     if (!part->solver)
-        return out_of_memory_for("the parts of the coupling");
+        return out_of_memory_for("the coupling");
     return type->create(part->solver, &part->simulation, parameters);
 }
 

@@ -66,7 +66,7 @@ static struct error *find_band(struct cfdmp *cfdmp)
     const int64_t all = n[0] * n[1] * n[2];
     cfdmp->band_of = owned_new(&cfdmp->owned, (size_t)all * sizeof *cfdmp->band_of);
     if (!cfdmp->band_of)
-        return out_of_memory_for("the parts of the coupling");
+        return out_of_memory_for("the coupling");
     for (int pass = 0; pass < 2; pass++) {
         int64_t at[3], k = 0;
         cfdmp->band_cells = 0;
@@ -84,7 +84,7 @@ static struct error *find_band(struct cfdmp *cfdmp)
             cfdmp->band =
                 owned_new(&cfdmp->owned, ((size_t)cfdmp->band_cells + 1) * sizeof *cfdmp->band);
             if (!cfdmp->band)
-                return out_of_memory_for("the parts of the coupling");
+                return out_of_memory_for("the coupling");
         }
     }
     return NULL;
@@ -107,11 +107,11 @@ static struct error *make_sides(struct cfdmp *cfdmp)
             side->flank = owned_new(&cfdmp->owned, (size_t)side->gates * sizeof *side->flank);
             side->rest = owned_new(&cfdmp->owned, (size_t)side->gates * sizeof *side->rest);
             if (!side->gate || !cfdmp->cut.passed[axis][s] || !side->flank || !side->rest)
-                return out_of_memory_for("the parts of the coupling");
+                return out_of_memory_for("the coupling");
             most = side->gates > most ? side->gates : most;
         }
     cfdmp->bits = owned_new(&cfdmp->owned, (size_t)most * sizeof *cfdmp->side[0][0].flank);
-    return cfdmp->bits ? NULL : out_of_memory_for("the parts of the coupling");
+    return cfdmp->bits ? NULL : out_of_memory_for("the coupling");
 }
 
 struct error *cfdmp_make_parts(struct cfdmp *cfdmp, struct simulation *simulation)

@@ -172,7 +172,7 @@ struct error *crowd_gather(struct crowd *crowd, const struct mpm *mpm, const str
     crowd->count = crowd->picked.count;
     fits = fits && memory_reserve((void **)&crowd->particle, &crowd->capacity, crowd->count + 1, 0,
                                   sizeof *crowd->particle);
-    TRY(ranks_agree(ranks, fits ? NULL : out_of_memory_for("the parts of the coupling")));
+    TRY(ranks_agree(ranks, fits ? NULL : out_of_memory_for("the coupling")));
     copy_picked(crowd, mpm, view, threads);
     if (ranks->size > 1) {
         struct smeared *all;
@@ -182,8 +182,7 @@ struct error *crowd_gather(struct crowd *crowd, const struct mpm *mpm, const str
         crowd->particle = all;
         crowd->capacity = crowd->count;
     }
-    TRY(ranks_agree(ranks,
-                    reserve_order(crowd) ? NULL : out_of_memory_for("the parts of the coupling")));
+    TRY(ranks_agree(ranks, reserve_order(crowd) ? NULL : out_of_memory_for("the coupling")));
     for (int64_t k = 0; k < crowd->count; k++)
         crowd->order[k] = (struct keyed){crowd->particle[k].id, (int32_t)k};
     radix_sort(crowd->order, crowd->spare, crowd->count, threads);

@@ -337,7 +337,7 @@ static struct error *make_rim(struct afdmp *afdmp, const struct gas_cut *box, st
     afdmp_each_beside(afdmp, box, count_beside, &rim->cells);
     rim->rest = owned_new(&afdmp->owned, (size_t)rim->cells * sizeof *rim->rest);
     rim->bits = owned_new(&afdmp->owned, (size_t)rim->cells * sizeof *rim->bits);
-    return rim->rest && rim->bits ? NULL : out_of_memory_for("the parts of the coupling");
+    return rim->rest && rim->bits ? NULL : out_of_memory_for("the coupling");
 }
 
 static void surround_nest(struct afdmp *afdmp)

@@ -62,8 +62,7 @@ struct error *cfdmp_gather_pushes(struct cfdmp *cfdmp)
     const struct ranks *ranks = cfdmp->ranks;
     struct mpm_push *all;
     int64_t count;
-    TRY(ranks_agree(ranks,
-                    cfdmp->pushes_lost ? out_of_memory_for("the parts of the coupling") : NULL));
+    TRY(ranks_agree(ranks, cfdmp->pushes_lost ? out_of_memory_for("the coupling") : NULL));
     if (ranks->size < 2)
         return NULL;
     TRY(ranks_gather(ranks, -1, cfdmp->push, cfdmp->pushes, sizeof *all, (void **)&all, &count));

@@ -83,9 +83,7 @@ struct error *partition_divide(struct partition *partition, struct block_weight 
         own[b].weight *= each;
     if (!partition->cut)
         partition->cut = memory_allocate(((size_t)ranks->size + 1) * sizeof *partition->cut);
-    TRY(ranks_agree(ranks, partition->cut ? NULL
-                                          : out_of_memory_for("the blocks "
-                                                              "of the ranks")));
+    TRY(ranks_agree(ranks, partition->cut ? NULL : out_of_memory_for("the blocks of the ranks")));
     TRY(ranks_gather(ranks, -1, own, count, sizeof *own, (void **)&all, &blocks));
     cut_curve(partition->cut, ranks->size, all, blocks);
     free(all);
