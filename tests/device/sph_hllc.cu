@@ -12,5 +12,5 @@ __global__ void add_pairs(struct eight eight, struct gradient_sums *gradients,
 
 __global__ void invert(struct sym3 *moment)
 {
-    moment[threadIdx.x] = inverse_of(3, moment[threadIdx.x]);
+    moment[threadIdx.x] = inverse_of(2, moment[threadIdx.x]);
 }

@@ -9,7 +9,7 @@
 #include "sph/kernel.h"
 #include "sph/record.h"
 
-enum { FIELDS = 40 };
+enum { FIELDS = 24 };
 
 /* A particle against eight neighbours: x_ij, u_j - u_i, the unit vector from i to j, and -V_j W' of
  * each. */
@@ -21,15 +21,15 @@ struct pair {
 /* Sums over pairs of the first pass, by lane: V x (x) grad W, V u (x) grad W, V f grad W of three
  * scalars f. */
 struct gradient_sums {
-    double moment[6][LANES] ALIGNED, velocity[9][LANES] ALIGNED, scalar[3][LANES] ALIGNED;
+    double moment[3][LANES] ALIGNED, velocity[4][LANES] ALIGNED, scalar[3][LANES] ALIGNED;
 };
 
-/* And of the second: V sigma*.g, V (u* - u_i).sigma*.g, V rho_j (u_j - u_i).g, A (w - r_i) g_r. */
+/* And of the second: V sigma*.g, V (u* - u_i).sigma*.g, V rho_j (u_j - u_i).g. */
 struct force_sums {
-    double force[3][LANES] ALIGNED, power[LANES] ALIGNED, mass[LANES] ALIGNED, hoop[LANES] ALIGNED;
+    double force[2][LANES] ALIGNED, power[LANES] ALIGNED, mass[LANES] ALIGNED;
 };
 struct forces {
-    double force[3], power, mass, hoop;
+    double force[2], power, mass;
 };
 
 BOLIDE_INLINE struct vec3 velocity_of(int dimension, const double *own,
@@ -73,20 +73,10 @@ BOLIDE_INLINE void add_gradients(int dimension, double smoothing, const double *
         }
         if (dimension > 1) {
             sums->moment[1][k] += length * e.y * e.y;
-            sums->moment[3][k] += length * e.x * e.y;
+            sums->moment[2][k] += length * e.x * e.y;
             sums->velocity[1][k] += u.x * e.y;
-            sums->velocity[3][k] += u.y * e.x;
-            sums->velocity[4][k] += u.y * e.y;
-        }
-        if (dimension > 2) {
-            sums->moment[2][k] += length * e.z * e.z;
-            sums->moment[4][k] += length * e.y * e.z;
-            sums->moment[5][k] += length * e.z * e.x;
-            sums->velocity[2][k] += u.x * e.z;
-            sums->velocity[5][k] += u.y * e.z;
-            sums->velocity[6][k] += u.z * e.x;
-            sums->velocity[7][k] += u.z * e.y;
-            sums->velocity[8][k] += u.z * e.z;
+            sums->velocity[2][k] += u.y * e.x;
+            sums->velocity[3][k] += u.y * e.y;
         }
     }
 }
@@ -101,8 +91,7 @@ BOLIDE_INLINE struct sym3 inverse_of(int dimension, struct sym3 m)
             inverse.xx = 1.0 / m.xx;
         return inverse;
     }
-    if (dimension == 2)
-        m.zz = 0.5 * (m.xx + m.yy);
+    m.zz = 0.5 * (m.xx + m.yy);
     double a = m.yy * m.zz - square(m.yz), b = m.yz * m.zx - m.xy * m.zz,
            c = m.xy * m.yz - m.yy * m.zx;
     double determinant = m.xx * a + m.xy * b + m.zx * c, mean = sym3_trace(m) / 3.0;
@@ -122,9 +111,8 @@ BOLIDE_INLINE struct sym3 inverse_of(int dimension, struct sym3 m)
 BOLIDE_INLINE struct vec3 gradient_row(struct sym3 correction, const struct gradient_sums *sums,
                                        int a)
 {
-    struct vec3 row =
-        vec3_make(across_lanes(sums->velocity[3 * a]), across_lanes(sums->velocity[3 * a + 1]),
-                  across_lanes(sums->velocity[3 * a + 2]));
+    struct vec3 row = vec3_make(across_lanes(sums->velocity[2 * a]),
+                                across_lanes(sums->velocity[2 * a + 1]), 0.0);
     return sym3_dot(correction, row);
 }
 
@@ -226,7 +214,7 @@ BOLIDE_INLINE struct elastic_contact contact_of(const struct eight *eight, int k
 
 /* Eight Riemann problems: the pairs, and u* - u_i and s* along them. */
 struct contacts {
-    double e[3][LANES] ALIGNED, weight[LANES] ALIGNED;
+    double e[2][LANES] ALIGNED, weight[LANES] ALIGNED;
     double velocity[LANES] ALIGNED, stress[LANES] ALIGNED;
 };
 
@@ -242,7 +230,6 @@ BOLIDE_INLINE double solve_contacts(const struct eight *eight, bool with_yield,
         struct elastic_contact contact = contact_of(eight, k, pair, with_yield);
         contacts->e[0][k] = pair.e.x;
         contacts->e[1][k] = pair.e.y;
-        contacts->e[2][k] = pair.e.z;
         contacts->weight[k] = pair.weight;
         contacts->velocity[k] = contact.contact.velocity;
         contacts->stress[k] = contact.contact.stress;
@@ -296,7 +283,7 @@ BOLIDE_INLINE void add_forces(const struct eight *eight, struct force_sums *sums
     const double(*field)[LANES] = eight->field;
     const struct hllc_selection selection = eight->selection;
     const int dimension = kind.dimension;
-    const int s = hllc_stress(dimension), l = hllc_correction(dimension), depth = hllc_depth(kind);
+    const int s = hllc_stress(dimension), l = hllc_correction(dimension);
     struct contacts contacts;
     if (!kind.viscous)
         find_contacts(eight, &contacts);
@@ -330,20 +317,12 @@ BOLIDE_INLINE void add_forces(const struct eight *eight, struct force_sums *sums
         struct vec3 w = vec3_scale(0.5, pair.u);
         if (!kind.viscous)
             w = vec3_add(w, vec3_scale(star.jump, e));
-        double force_weight = pair.weight;
-        if (kind.depth) {
-            double pair_depth = 0.5 * fabs(own[depth] + field[depth][k]);
-            force_weight = pair.weight * pair_depth;
-            sums->hoop[k] += pair.weight * (pair_depth - fabs(own[depth])) * g.x;
-        }
-        t = vec3_scale(force_weight, t);
+        t = vec3_scale(pair.weight, t);
         sums->power[k] += vec3_dot(t, w);
         sums->mass[k] += pair.weight * field[hllc_density(dimension)][k] * vec3_dot(pair.u, own_g);
         sums->force[0][k] += t.x;
         if (dimension > 1)
             sums->force[1][k] += t.y;
-        if (dimension > 2)
-            sums->force[2][k] += t.z;
     }
 }
 

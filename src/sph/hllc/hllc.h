@@ -87,17 +87,8 @@ struct sph_records hllc_records(const struct sph *sph, bool forces);
 void hllc_pack(struct sph *sph, const struct simulation *simulation, const struct hllc_fields *f,
                bool forces);
 
-/* scheme.c. Collective: all rates of the state as it stands, hoop stress included; lists must hold.
- */
+/* scheme.c. Collective: all rates of the state as it stands; lists must hold. */
 void hllc_find_rates(struct sph *sph, struct simulation *simulation, const struct hllc_fields *f);
-
-/* The section of particle I, which a stage may have taken through the axis. */
-BOLIDE_INLINE double hllc_volume(const struct simulation *simulation, const struct particles *p,
-                                 int32_t i)
-{
-    double depth = sph_axisymmetric(simulation) ? sph_ring(p, i).depth : 1.0;
-    return p->mass[i] / (p->density[i] * depth);
-}
 
 /* Members of struct sph_scheme. */
 void hllc_start(const struct sph *sph, struct simulation *simulation);

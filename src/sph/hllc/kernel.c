@@ -26,15 +26,17 @@ BOLIDE_INLINE void row_gradients(const struct hllc_loop *loop, int dimension, in
             lanes_stage(records, walk.list + k, field);
             add_gradients(dimension, loop->smoothing, own, (const double(*)[LANES])field, &sums);
         }
-    struct sym3 moment = {across_lanes(sums.moment[0]), across_lanes(sums.moment[1]),
-                          across_lanes(sums.moment[2]), across_lanes(sums.moment[3]),
-                          across_lanes(sums.moment[4]), across_lanes(sums.moment[5])};
+    struct sym3 moment = {across_lanes(sums.moment[0]),
+                          across_lanes(sums.moment[1]),
+                          0.0,
+                          across_lanes(sums.moment[2]),
+                          0.0,
+                          0.0};
     struct sym3 l = inverse_of(dimension, moment);
     memcpy(rates->correction[i], &l, sizeof l);
-    struct vec3 x = gradient_row(l, &sums, 0), y = gradient_row(l, &sums, 1),
-                z = gradient_row(l, &sums, 2);
-    struct sym3 strain = {x.x, y.y, z.z, 0.5 * (x.y + y.x), 0.5 * (y.z + z.y), 0.5 * (z.x + x.z)};
-    struct vec3 spin = {0.5 * (z.y - y.z), 0.5 * (x.z - z.x), 0.5 * (y.x - x.y)};
+    struct vec3 x = gradient_row(l, &sums, 0), y = gradient_row(l, &sums, 1);
+    struct sym3 strain = {x.x, y.y, 0.0, 0.5 * (x.y + y.x), 0.0, 0.0};
+    struct vec3 spin = {0.0, 0.0, 0.5 * (y.x - x.y)};
     memcpy(rates->strain_rate[i], &strain, sizeof strain);
     memcpy(rates->spin[i], &spin, sizeof spin);
     for (int s = 0; rates->slopes && s < 3; s++)
@@ -64,11 +66,10 @@ BOLIDE_INLINE struct forces part_forces(const struct hllc_loop *loop, struct hll
             add_forces(&eight, &sums);
         }
     struct forces forces;
-    for (int a = 0; a < 3; a++)
+    for (int a = 0; a < 2; a++)
         forces.force[a] = across_lanes(sums.force[a]);
     forces.power = across_lanes(sums.power);
     forces.mass = across_lanes(sums.mass);
-    forces.hoop = across_lanes(sums.hoop);
     return forces;
 }
 
@@ -80,7 +81,7 @@ BOLIDE_INLINE void row_forces(const struct hllc_loop *loop, struct hllc_kind kin
     int count = (int)loop->neighbours->row[i].count, without_images = count;
     while (without_images > 0 && entry[without_images - 1] >> ENTRY_PART_SHIFT == PART_IMAGE)
         without_images--;
-    struct forces part[2] = {{{0.0, 0.0, 0.0}, 0.0, 0.0, 0.0}};
+    struct forces part[2] = {{{0.0, 0.0}, 0.0, 0.0}};
     for (int k = 0, begin = 0; k < 2 && begin < count; k++) {
         const int end = k ? count : without_images;
         part[k] = part_forces(loop, kind, i, entry + begin, end - begin);
@@ -88,8 +89,8 @@ BOLIDE_INLINE void row_forces(const struct hllc_loop *loop, struct hllc_kind kin
     }
     const struct forces all = part[0], images = part[1];
     double density = own[hllc_density(kind.dimension)];
-    double factor = 2.0 / (kind.depth ? density * fabs(own[hllc_depth(kind)]) : density);
-    for (int a = 0; a < 3; a++) {
+    double factor = 2.0 / density;
+    for (int a = 0; a < 2; a++) {
         rates->acceleration[i][a] = factor * (all.force[a] + images.force[a]);
         if (rates->wall)
             rates->wall[i][a] = factor * images.force[a];
@@ -97,9 +98,7 @@ BOLIDE_INLINE void row_forces(const struct hllc_loop *loop, struct hllc_kind kin
     rates->power[i] = factor * (all.power + images.power);
     const double *strain = rates->strain_rate[i];
     rates->density_rate[i] =
-        loop->by_mass ? -(all.mass + images.mass) : -density * (strain[0] + strain[1] + strain[2]);
-    if (kind.depth)
-        rates->hoop_pull[i] = copysign(2.0, own[hllc_depth(kind)]) * (all.hoop + images.hoop);
+        loop->by_mass ? -(all.mass + images.mass) : -density * (strain[0] + strain[1]);
 }
 
 /* Each body of the rows' loop is an instance; its name says of which kind. */
@@ -116,35 +115,29 @@ BOLIDE_INLINE void row_forces(const struct hllc_loop *loop, struct hllc_kind kin
         for (int32_t i = begin; i < end; i++)                                  \
             row_forces(loop, kind, i);                                         \
     }
-#define INSTANCES(medium, dimension, depth)                  \
-    FORCES(medium##_viscous, dimension, depth, true, false)  \
-    FORCES(medium##_contact, dimension, depth, false, false) \
-    FORCES(medium##_reconstructed, dimension, depth, false, true)
+#define INSTANCES(medium, dimension)                  \
+    FORCES(medium##_viscous, dimension, true, false)  \
+    FORCES(medium##_contact, dimension, false, false) \
+    FORCES(medium##_reconstructed, dimension, false, true)
 
 GRADIENTS(line, 1)
 GRADIENTS(plane, 2)
-GRADIENTS(space, 3)
-INSTANCES(line, 1, false)
-INSTANCES(plane, 2, false)
-INSTANCES(space, 3, false)
-INSTANCES(ring, 2, true)
+INSTANCES(line, 1)
+INSTANCES(plane, 2)
 
 ISA_KERNEL(void, hllc_find_gradients, const struct hllc_loop *loop, int32_t begin, int32_t end)
 {
     typedef void instance(const struct hllc_loop *, int32_t, int32_t);
-    static instance *const table[3] = {line_gradients, plane_gradients, space_gradients};
+    static instance *const table[2] = {line_gradients, plane_gradients};
     table[loop->kind.dimension - 1](loop, begin, end);
 }
 
 ISA_KERNEL(void, hllc_find_forces, const struct hllc_loop *loop, int32_t begin, int32_t end)
 {
     typedef void instance(const struct hllc_loop *, int32_t, int32_t);
-    enum { RING = 3 }; /* behind the dimensions */
-    static instance *const table[4][3] = {{line_viscous, line_contact, line_reconstructed},
-                                          {plane_viscous, plane_contact, plane_reconstructed},
-                                          {space_viscous, space_contact, space_reconstructed},
-                                          {ring_viscous, ring_contact, ring_reconstructed}};
+    static instance *const table[2][3] = {{line_viscous, line_contact, line_reconstructed},
+                                          {plane_viscous, plane_contact, plane_reconstructed}};
     const struct hllc_kind kind = loop->kind;
     const int pairs = kind.viscous ? 0 : 1 + kind.reconstructed;
-    table[kind.depth ? RING : kind.dimension - 1][pairs](loop, begin, end);
+    table[kind.dimension - 1][pairs](loop, begin, end);
 }

@@ -2,14 +2,13 @@
  * (`hllc`) or with artificial viscosity (`monaghan`). Two passes over the rows a stage: gradients
  * with L_i = [sum V_j x_ij (x) grad W]^-1, then forces, each with records of its own:
  *
- *   x [y [z]]  diameter  volume  u [v [w]]  [density pressure deviator: 1-D]                    gradients
- *   x [y [z]]  diameter  volume  u [v [w]]  density  stress  L  pressure p_rho p_e mu Y         forces, hllc
+ *   x [y]  diameter  volume  u [v]  [density pressure deviator: 1-D]                    gradients
+ *   x [y]  diameter  volume  u [v]  density  stress  L  pressure p_rho p_e mu Y         forces, hllc
  *                                           density  stress  L  sound                           forces, monaghan
- *     [depth]  [material  rates of strain  [gradients of density, pressure, deviator: 1-D]]
+ *     [material  rates of strain  [gradients of density, pressure, deviator: 1-D]]
  *
- * where stress, L and rates of strain are xx in 1-D, (xx, yy, xy) in 2-D, (xx, yy, zz, xy, yz, zx)
- * in 3-D. With a depth r, the volume is the section A = m/(rho r). Compiled for several instruction
- * sets with the same bits. Source: Wang et al., Explosion and Shock Waves 44 (2024) 081431, (2),
+ * where stress, L and rates of strain are xx in 1-D, (xx, yy, xy) in 2-D. Compiled for several
+ * instruction sets with the same bits. Source: Wang et al., Explosion and Shock Waves 44 (2024) 081431, (2),
  * (16), (17), (20), (21). */
 #ifndef BOLIDE_SPH_HLLC_KERNEL_H
 #define BOLIDE_SPH_HLLC_KERNEL_H
@@ -18,8 +17,7 @@
 
 /* What instantiates a kernel. */
 struct hllc_kind {
-    int dimension;
-    bool depth;         /* axisymmetry: rings of radius r, -r behind the axis */
+    int dimension;      /* 1 or 2 */
     bool viscous;       /* artificial viscosity in place of Riemann problems */
     bool reconstructed; /* contacts between linear reconstructions */
 };
@@ -38,11 +36,10 @@ BOLIDE_INLINE int hllc_response(int dimension)
 {
     return hllc_correction(dimension) + hllc_tensor(dimension);
 }
-BOLIDE_INLINE int hllc_depth(struct hllc_kind kind)
+BOLIDE_INLINE int hllc_material(struct hllc_kind kind)
 {
     return hllc_response(kind.dimension) + (kind.viscous ? 1 : 5);
 }
-BOLIDE_INLINE int hllc_material(struct hllc_kind kind) { return hllc_depth(kind) + kind.depth; }
 BOLIDE_INLINE int hllc_strain(struct hllc_kind kind) { return hllc_material(kind) + 1; }
 BOLIDE_INLINE int hllc_slopes(struct hllc_kind kind)
 {
@@ -67,8 +64,6 @@ struct hllc_rates {
     double (*acceleration)[3]; /* (2b), m/s^2 */
     double *power;             /* (2c), W/kg */
     double (*wall)[3]; /* the part of the acceleration that images gave; NULL without walls */
-    /* 2 sum A_j (w - r_i) g_r, w = |r_i + r_j|/2: one in the continuum; NULL without depth */
-    double *hoop_pull;
 };
 
 /* What the options of a scheme choose in the forces, as numbers that select. */

@@ -13,7 +13,7 @@ static double *pack_plain(const struct simulation *simulation, const struct hllc
     int dimension = simulation->problem->dimension;
     memcpy(record, p->position[i], (size_t)dimension * sizeof *record);
     record[dimension] = f->sph.diameter[i];
-    record[dimension + 1] = hllc_volume(simulation, p, i);
+    record[dimension + 1] = p->mass[i] / p->density[i];
     memcpy(record + dimension + 2, p->velocity[i], (size_t)dimension * sizeof *record);
     return record + 2 * dimension + 2;
 }
@@ -22,15 +22,9 @@ static double *pack_plain(const struct simulation *simulation, const struct hllc
 static double *pack_tensor(int dimension, const double *tensor, double less, double *record)
 {
     *record++ = tensor[0] - less;
-    if (dimension > 1)
+    if (dimension > 1) {
         *record++ = tensor[1] - less;
-    if (dimension > 2)
-        *record++ = tensor[2] - less;
-    if (dimension > 1)
         *record++ = tensor[3];
-    if (dimension > 2) {
-        *record++ = tensor[4];
-        *record++ = tensor[5];
     }
     return record;
 }
@@ -68,8 +62,6 @@ static void pack_for_forces(const struct hllc_kind kind, const struct simulation
         *next++ = strength_shear_modulus(&material->strength);
         *next++ = strength_yield(&material->strength, &point);
     }
-    if (kind.depth)
-        *next++ = copysign(sph_ring(p, i).depth, p->position[i][0]);
     if (!kind.reconstructed)
         return;
     *next++ = p->material[i];
@@ -97,8 +89,6 @@ static void reflect_for_forces(const struct sph *sph, const struct simulation *s
     sph_reflect_motion(simulation, image, record);
     sph_reflect_tensor(dimension, sign, record + hllc_stress(dimension));
     sph_reflect_tensor(dimension, sign, record + hllc_correction(dimension));
-    if (kind.depth && image % 3 == 1)
-        record[hllc_depth(kind)] *= -1.0;
     if (!kind.reconstructed)
         return;
     sph_reflect_tensor(dimension, sign, record + hllc_strain(kind));
