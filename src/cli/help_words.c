@@ -235,9 +235,8 @@ static const struct answer answers[] = {
      "pulsation of the bubble takes too many steps.",
      "materials.md"},
     {" cavitation cavity.in.liquid ram hydrodynamic.ram hydraulic.ram ",
-     "Liquids of the library carry tension without limit. A cut-off is the failure of a solid:\n"
-     "give the liquid a strength with a small shear modulus and yield stress, and\n"
-     "`failure: {spall: {strength: 1 MPa}}`. A vapour, and its pressure, are not available.",
+     "A liquid with `failure: cavitation` opens bubbles where it would be in tension, with SPH or\n"
+     "MPM; `library: water-shock` has it. They bear no pressure: a vapour is not available.",
      "failure.md"},
     {" bubble gas.bubble shock.bubble helium sf6 richtmyer meshkov ",
      "Two gases with `solver: gas`, library: air, helium, sf6. The shock comes from a body of gas\n"

@@ -7,6 +7,7 @@
 #ifndef BOLIDE_FAILURE_H
 #define BOLIDE_FAILURE_H
 
+#include "material/failure/cavitation.h"
 #include "material/failure/cockcroft_latham.h"
 #include "material/failure/grady.h"
 #include "material/failure/johnson_cook.h"
@@ -21,7 +22,8 @@
     X(johnson_cook, ##__VA_ARGS__)     \
     X(cockcroft_latham, ##__VA_ARGS__) \
     X(grady, ##__VA_ARGS__)            \
-    X(threshold, ##__VA_ARGS__)
+    X(threshold, ##__VA_ARGS__)        \
+    X(cavitation, ##__VA_ARGS__)
 
 #define FAILURE_ENUM(name) FAILURE_##name,
 enum failure_kind { FAILURE_NONE, FAILURE_LIST(FAILURE_ENUM) FAILURE_KINDS };

@@ -324,8 +324,12 @@ BOLIDE_INLINE const char *material_failure_wrong(const struct material *material
 {
     if (!material_fails(material))
         return NULL;
-    if (!material_has_strength(material))
-        return "only a material with strength fails: set `failure: none` too";
+    const bool of_fluids = failure_traits(&material->failure).of_fluids;
+    if (of_fluids && material_has_strength(material))
+        return "only a liquid cavitates, and this material has strength: give `spall`";
+    if (!of_fluids && !material_has_strength(material))
+        return "only a material with strength fails; a liquid has `cavitation`, a gas `failure: "
+               "none`";
     if (strength_takes_pressure(&material->strength))
         return "this strength model has a failure of its own";
     return NULL;

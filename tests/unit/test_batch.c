@@ -95,6 +95,7 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
         {STRENGTH_johnson_cook, {.johnson_cook = soft()}}};
     const struct failure failures[] = {
         {.kind = FAILURE_NONE},
+        {FAILURE_cavitation, {.cavitation = {.tension = 1e8}}},
         {FAILURE_spall, {.spall = {.friction = 0.3, .strength = 1e9}}},
         {FAILURE_spall, {.spall = {.friction = 0.3, .strength = 0.5e9, .stress = SPALL_MEAN}}},
         {FAILURE_johnson_cook,

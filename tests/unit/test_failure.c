@@ -187,6 +187,34 @@ static void fluids_and_models_that_fail_by_themselves_take_none(void **state)
     assert_non_null(material_failure_wrong(&material));
     material.strength.kind = STRENGTH_NONE;
     assert_non_null(material_failure_wrong(&material));
+    material.failure.kind = FAILURE_cavitation;
+    assert_null(material_failure_wrong(&material));
+    material.strength.kind = STRENGTH_perfect_plastic;
+    assert_non_null(material_failure_wrong(&material));
+}
+
+/* Bubbles open at the tension that is given, take what the liquid expands, and bear no pressure
+ * until they are closed again. */
+static void a_liquid_cavitates_and_bubbles_close(void **state)
+{
+    (void)state;
+    struct material material = metal(0.0);
+    material.strength.kind = STRENGTH_NONE;
+    material.failure.kind = FAILURE_cavitation;
+    material.failure.of.cavitation.tension = 50e6;
+    struct point point = at_rest(&material);
+    const double bulk = 73e9, held = 50e6 / bulk;
+    strain_by(&material, 0.98 * held, 0.0, 0.0, 1e-6, &point);
+    assert_true(point.history[HISTORY_damage] == 0.0);
+    assert_close(point.pressure, -0.98 * 50e6, 0.01);
+    strain_by(&material, 2e-3, 0.0, 0.0, 1e-6, &point);
+    assert_true(point.history[HISTORY_damage] == 1.0 && point.pressure == 0.0);
+    assert_close(point.history[HISTORY_void_ratio], 2e-3 + 0.98 * held, 0.01);
+    strain_by(&material, -2e-3, 0.0, 0.0, 1e-6, &point);
+    assert_true(point.pressure == 0.0);
+    assert_close(point.history[HISTORY_void_ratio], 0.98 * held, 0.01);
+    strain_by(&material, -1e-3 - 0.98 * held, 0.0, 0.0, 1e-6, &point);
+    assert_close(point.pressure, 1e-3 * 2700.0 * square(5350.0), 0.02);
 }
 
 /* Random steps of failed material: what it bears, and that no state is impossible. */
@@ -276,6 +304,7 @@ int main(void)
         cmocka_unit_test(cockcroft_and_latham_add_work),
         cmocka_unit_test(grady_takes_the_weaker_of_cracks_and_holes),
         cmocka_unit_test(fluids_and_models_that_fail_by_themselves_take_none),
+        cmocka_unit_test(a_liquid_cavitates_and_bubbles_close),
         cmocka_unit_test(failed_material_bears_no_tension_whatever_happens),
         cmocka_unit_test(strength_scatters_as_weibull_says),
         cmocka_unit_test(a_stronger_point_fails_later),

@@ -47,13 +47,14 @@ struct failure_traits {
     bool limits_tension; /* by a stress that it is given */
     bool batched;        /* of many points at once: it does not ask for sound and yield */
     bool at_contacts;    /* pairs of particles break, points do not */
+    bool of_fluids;      /* for material without strength, and for no other */
     /* Why its parameters do not go together, and the parameter to name; NULL when they do. */
     const char *wrong, *wrong_key;
 };
 
 BOLIDE_INLINE struct failure_traits failure_default_traits(void)
 {
-    struct failure_traits traits = {false, false, false, NULL, NULL};
+    struct failure_traits traits = {false, false, false, false, NULL, NULL};
     return traits;
 }
 

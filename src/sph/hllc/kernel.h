@@ -8,8 +8,8 @@
  *     [material  rates of strain  [gradients of density, pressure, deviator: 1-D]]
  *
  * where stress, L and rates of strain are xx in 1-D, (xx, yy, xy) in 2-D. Compiled for several
- * instruction sets with the same bits. Source: Wang et al., Explosion and Shock Waves 44 (2024) 081431, (2),
- * (16), (17), (20), (21). */
+ * instruction sets with the same bits. Source: Wang et al., Explosion and Shock Waves 44 (2024)
+ * 081431, (2), (16), (17), (20), (21). */
 #ifndef BOLIDE_SPH_HLLC_KERNEL_H
 #define BOLIDE_SPH_HLLC_KERNEL_H
 
