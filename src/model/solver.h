@@ -48,9 +48,9 @@ struct judgement {
     const char *energy_lost;
     /* What may hold where it stops in an impossible state, as a sentence; NULL: nothing. */
     const char *instead;
-    /* In 2-D and 3-D bodies in lasting tension creep and come apart, whatever their strength; see
-     * run/warnings_tension.c. */
-    bool loses_tension;
+    /* In 2-D and 3-D bodies of materials for which this is true creep and come apart in lasting
+     * tension, whatever their strength; see run/warnings_tension.c. NULL: none does. */
+    bool (*loses_tension)(const struct material *material);
     /* Where materials that are NARROW, by their index, must stay to be computed. */
     struct bounds room;
     bool (*narrow)(const struct material *material);

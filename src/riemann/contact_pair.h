@@ -55,13 +55,14 @@ struct pair_law {
     bool shear;   /* the sides have traction across the axis */
     bool carried; /* by slopes */
     bool cuts;    /* contact laws may act */
+    bool calms;   /* jumps of stress between elastic sides may count in part, see pair_share */
 };
 
 /* What a pair of its own adds to that: not zero where it carries no traction across the axis, and
  * where it carries no tension; and of the difference of velocities, what counts in the stress: 1
- * but for fluids that slide past each other. */
+ * but for fluids that slide past each other. Of how far both sides are elastic solids, 0 to 1. */
 struct pair_limits {
-    double slip, open, brake;
+    double slip, open, brake, elastic;
 };
 
 /* sigma* and U* less the velocity of the left side, along the axis and across it. */
@@ -92,10 +93,21 @@ BOLIDE_INLINE struct pair_weights pair_weights_of(const struct pair_side *left,
     return weights;
 }
 
+/* The share of a jump of stress that moves the contact, from the squares of MOVES, impedance times
+ * jump of velocity, and of PULLS, jump of stress. In a wave both are equal, and all of it counts.
+ * Where stress jumps more, as in the reflection at an oblique surface, the rest is an error of the
+ * slopes; between elastic particles nothing is gained from it, and vibrations lose their energy to
+ * it. Plastic flow needs it. */
+BOLIDE_INLINE double pair_share(double elastic, double moves, double pulls)
+{
+    const double tiny = 1e-60;
+    return 1.0 - elastic * (1.0 - minimum(1.0, moves / maximum(pulls, tiny)));
+}
+
 /* Stress and velocity along the axis, before the law. */
 BOLIDE_INLINE struct contact pair_along(const struct pair_side *left, const struct pair_side *right,
-                                        double velocity, double brake, struct pair_law law,
-                                        const struct contact_weights *along)
+                                        double velocity, struct pair_limits limits,
+                                        struct pair_law law, const struct contact_weights *along)
 {
     struct contact contact;
     if (law.star == STAR_DUKOWICZ || law.star == STAR_EXACT_GAS) {
@@ -117,8 +129,11 @@ BOLIDE_INLINE struct contact pair_along(const struct pair_side *left, const stru
                 ? riemann_shock_weights(left->impedance, right->impedance, left->shock_slope,
                                         right->shock_slope, jump, step)
                 : *along;
-        contact.stress = contact_stress(w, left_stress, right_stress, brake * jump);
-        contact.velocity = rise + contact_velocity_jump(w, jump, step);
+        const double both = 0.5 * (left->impedance + right->impedance);
+        const double share =
+            law.calms ? pair_share(limits.elastic, square(both * jump), square(step)) : 1.0;
+        contact.stress = contact_stress(w, left_stress, right_stress, limits.brake * jump);
+        contact.velocity = rise + contact_velocity_jump(w, jump, share * step);
         return contact;
     }
     contact.stress = contact_stress(*along, left->stress, right->stress, velocity);
@@ -201,9 +216,17 @@ BOLIDE_INLINE struct pair_contact pair_across(const struct pair_side *left,
         const double open = pair_open(left, right);
         c.shear = vec3_add(vec3_add(left->shear, vec3_scale(fraction, difference->shear)),
                            vec3_scale(across->impedance * open, difference->sliding));
+        const double both = 0.5 * (left->shear_impedance + right->shear_impedance) * open;
+        const double step = 1.0 - l - r;
+        const double share =
+            law.calms
+                ? pair_share(limits.elastic,
+                             square(both) * vec3_dot(difference->sliding, difference->sliding),
+                             square(step) * vec3_dot(difference->shear, difference->shear))
+                : 1.0;
         c.sliding =
             vec3_add(vec3_scale(left->carried.sliding + across->right * open, difference->sliding),
-                     vec3_scale(across->compliance * (1.0 - l - r), difference->shear));
+                     vec3_scale(across->compliance * share * step, difference->shear));
     } else {
         c.shear = pair_shear(*across, left->shear, right->shear, difference->sliding);
         c.sliding = pair_sliding(*across, difference->sliding, difference->shear);
@@ -224,7 +247,7 @@ BOLIDE_INLINE struct pair_contact contact_pair(const struct pair_side *left,
 {
     const struct pair_weights weights = pair_weights_of(left, right, law.star);
     struct pair_solved solved;
-    solved.along = pair_along(left, right, difference->velocity, limits.brake, law, &weights.along);
+    solved.along = pair_along(left, right, difference->velocity, limits, law, &weights.along);
     solved.across = weights.across;
     return pair_across(left, right, difference, limits, law, &solved);
 }

@@ -39,9 +39,8 @@ struct warnings {
     int materials, of_energy, of_loads, memories; /* first indices; how many */
     struct material_watch *watch;
     struct warning_memory *memory;
-    bool *prescribed;   /* by body: it has a prescribed motion */
-    double speed;       /* the largest that needs no warning, so far, m/s */
-    bool loses_tension; /* of the solver, in the dimension of the case */
+    bool *prescribed; /* by body: it has a prescribed motion */
+    double speed;     /* the largest that needs no warning, so far, m/s */
     int bodies;
     struct body_tension *tension;
     struct tension_watch *tension_watch;

@@ -5,11 +5,12 @@
  * from the integral over time of sigma/(rho c spacing). A nudged square of aluminium under 0.25 to
  * 4 GPa, fluid or solid, has its least kinetic energy where that is 0.1 to 0.3, ten times as much
  * at 0.7 to 0.9, that of the start at 1 to 2, and opens at 2 to 4. A cube does the same; `standard`
- * opens at 0.9, and a hexagonal lattice that does not fit the walls at 0.2.
+ * opens at 0.9, and a hexagonal lattice that does not fit the walls at 0.2. The default method
+ * holds such bodies, but for soft solids (judgement.loses_tension).
  *
- * At surfaces that cut the lattice elastic strain creeps, however small it is: a bent beam of 10
- * particles across loses nine tenths of its energy while waves pass 600 particles, at that rate
- * half of it in 200.
+ * With the methods that lose tension elastic strain creeps at surfaces that cut the lattice,
+ * however small it is: a bent beam of 10 particles across loses nine tenths of its energy while
+ * waves pass 600 particles, at that rate half of it in 200.
  *
  * A pulse that passes through a body leaves most of it alone, or stays below these limits. */
 #include <stdlib.h>
@@ -41,13 +42,14 @@ static bool is_oblique(const struct body_input *body)
            strcmp(body->lattice.choice->name, "square") != 0;
 }
 
-static void watch_body(struct tension_watch *watch, const struct simulation *simulation, int b)
+static void watch_body(struct tension_watch *watch, const struct simulation *simulation,
+                       bool (*loses)(const struct material *material), int b)
 {
     const struct body_input *body = case_body(simulation->problem->input, b);
     const struct material *material = &simulation->problem->material[body->material_index];
     struct point rest = {.density = material_density(material)};
     if (body_is_prescribed(simulation, b) || eos_traits(&material->eos).gas ||
-        material_burns(material))
+        material_burns(material) || !loses(material))
         return;
     const double c = any_material_evaluate(material, &rest).sound_long;
     if (!(c > 0.0))
@@ -58,6 +60,12 @@ static void watch_body(struct tension_watch *watch, const struct simulation *sim
     watch->creep = is_oblique(body) ? 1.0 / MOST_WAVES : 0.0;
 }
 
+/* In 1-D waves are aligned with the particles, and the default holds thirty times as much. */
+static bool follows_tension(const struct warnings *w, const struct simulation *simulation)
+{
+    return w->judgement->loses_tension && simulation->problem->dimension > 1;
+}
+
 bool tension_create(struct warnings *w, const struct simulation *simulation)
 {
     w->bodies = simulation->problem->input->bodies.count;
@@ -65,10 +73,8 @@ bool tension_create(struct warnings *w, const struct simulation *simulation)
     w->tension_watch = memory_allocate((size_t)w->bodies * sizeof *w->tension_watch);
     if (!w->tension || !w->tension_watch)
         return false;
-    /* In 1-D waves are aligned with the particles, and the default holds thirty times as much. */
-    w->loses_tension = w->judgement->loses_tension && simulation->problem->dimension > 1;
-    for (int b = 0; b < w->bodies && w->loses_tension; b++)
-        watch_body(&w->tension_watch[b], simulation, b);
+    for (int b = 0; b < w->bodies && follows_tension(w, simulation); b++)
+        watch_body(&w->tension_watch[b], simulation, w->judgement->loses_tension, b);
     return true;
 }
 
@@ -149,7 +155,7 @@ static void follow_body(struct body_tension *body, const struct tension_watch *w
 bool tension_follow(struct warnings *w, const struct simulation *simulation,
                     const struct population *p)
 {
-    if (!w->loses_tension)
+    if (!follows_tension(w, simulation))
         return true;
     int64_t *sums = calloc((size_t)w->bodies * SUMS, sizeof *sums);
     const bool done = sums && sum_members(w, p, sums);

@@ -131,6 +131,8 @@ struct sph_scheme {
     /* As in solver_class; may be NULL. */
     double (*largest_jump)(const void *options);
     const char *(*energy_lost)(const void *options);
+    /* As in judgement; NULL: all materials do. */
+    bool (*loses_tension)(const struct material *material);
     bool wide_step; /* dt = K h/C in place of K D/C */
 };
 
@@ -232,7 +234,7 @@ double sph_near_skin(const struct sph_parameters *parameters, unsigned traits);
 
 /* records.c. One kind of record: REFLECT turns that of a particle into that of its image. But for
  * the position it multiplies fields by 1 or -1. */
-enum { SPH_STRIDE_MAX = 64 };
+enum { SPH_STRIDE_MAX = 88 };
 struct sph_records {
     double *first;
     size_t stride; /* in doubles, SPH_STRIDE_MAX at most */

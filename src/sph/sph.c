@@ -292,6 +292,12 @@ static void refuse(const struct sph *sph, const struct simulation *simulation,
                         "plane stress is for plates that have strength, and this is a fluid");
 }
 
+static bool loses_always(const struct material *material)
+{
+    (void)material;
+    return true;
+}
+
 static void sph_judge(const void *parameters, const struct simulation *simulation,
                       struct judgement *judgement)
 {
@@ -309,7 +315,7 @@ static void sph_judge(const void *parameters, const struct simulation *simulatio
         judgement->instead =
             "this method is here for comparison and stops in strong shocks and in large "
             "expansions: leave `method` out for the default, muscl, which holds there";
-    judgement->loses_tension = true;
+    judgement->loses_tension = scheme->loses_tension ? scheme->loses_tension : loses_always;
 }
 
 const struct solver_class sph_class = {.size = sizeof(struct sph),

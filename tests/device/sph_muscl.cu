@@ -1,6 +1,7 @@
 /* Device code of second-order contact SPH: what the body of its pair loop does with a particle and eight
  * neighbours. The kind is known at run time only. */
 #include "sph/muscl/body.h"
+#include "sph/muscl/closure.h"
 #include "sph/muscl/rates.h"
 
 __global__ void add_pairs(struct muscl_kind kind, double smoothing, double material,
@@ -12,6 +13,7 @@ __global__ void add_pairs(struct muscl_kind kind, double smoothing, double mater
     walk_rows(kind, record, &lanes[i], &pairs, sums[i].row);
     find_changes(kind, material, record, &lanes[i], &pairs);
     add_contacts(kind, true, record, &lanes[i], &pairs, sums[i].lane);
+    add_pulls(kind, record, 1, &lanes[i], &pairs, sums[i].lane);
     add_slopes(kind, record, &lanes[i], &pairs, sums[i].lane);
 }
 

@@ -42,7 +42,7 @@ static inline struct muscl_loop loop_of(const struct running *run)
                                .velocity = (const double(*)[3])p->velocity,
                                .rates = {f.sph.rates, f.own.correction, f.own.velocity_gradient,
                                          f.own.stress_gradient, f.own.force, f.sph.packing,
-                                         f.sph.volume}};
+                                         f.sph.volume, f.own.closure, f.own.credit}};
 }
 
 #endif

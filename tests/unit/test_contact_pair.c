@@ -19,7 +19,7 @@ static struct pair_difference difference_of(struct dice *dice, const struct pair
                                     .shear = vec3_sub(right->shear, left->shear)};
 }
 
-static const struct pair_limits free_of_laws = {0.0, 0.0, 1.0};
+static const struct pair_limits free_of_laws = {0.0, 0.0, 1.0, 0.0};
 
 /* Along the axis and across it a pair is two acoustic contacts, with and without slopes that carry
  * nothing. */
@@ -41,7 +41,7 @@ static void both_parts_of_a_contact_are_acoustic(void **state)
                           .velocity = difference.sliding.y,
                           .stress = right.shear.y});
         for (int carried = 0; carried < 2; carried++) {
-            const struct pair_law law = {STAR_ACOUSTIC, true, carried, false};
+            const struct pair_law law = {STAR_ACOUSTIC, true, carried, false, false};
             const struct pair_contact pair =
                 contact_pair(&left, &right, &difference, free_of_laws, law);
             assert_near(pair.stress, along.stress, 1e-3);
@@ -61,7 +61,7 @@ static void a_linear_field_is_met_in_the_middle(void **state)
     struct pair_side left = side_of_dice(&dice), right = side_of_dice(&dice);
     const struct pair_difference difference = difference_of(&dice, &left, &right);
     left.carried = right.carried = (struct pair_carried){0.5, 0.5, 0.5, 0.5};
-    const struct pair_law law = {STAR_SHOCK, true, true, false};
+    const struct pair_law law = {STAR_SHOCK, true, true, false, false};
     const struct pair_contact pair = contact_pair(&left, &right, &difference, free_of_laws, law);
     assert_near(pair.stress, 0.5 * (left.stress + right.stress), 1e-3);
     assert_near(pair.velocity, 0.5 * difference.velocity, 1e-9);
@@ -72,7 +72,7 @@ static void a_linear_field_is_met_in_the_middle(void **state)
 static void a_contact_law_opens_in_tension_and_lets_slip(void **state)
 {
     (void)state;
-    const struct pair_law law = {STAR_ACOUSTIC, true, false, true};
+    const struct pair_law law = {STAR_ACOUSTIC, true, false, true, false};
     struct dice dice = {11};
     for (int k = 0; k < 1000; k++) {
         const struct pair_side left = side_of_dice(&dice), right = side_of_dice(&dice);
@@ -80,9 +80,9 @@ static void a_contact_law_opens_in_tension_and_lets_slip(void **state)
         const struct pair_contact bonded =
             contact_pair(&left, &right, &difference, free_of_laws, law);
         const struct pair_contact slips =
-            contact_pair(&left, &right, &difference, (struct pair_limits){1.0, 0.0, 1.0}, law);
+            contact_pair(&left, &right, &difference, (struct pair_limits){1.0, 0.0, 1.0, 0.0}, law);
         const struct pair_contact opens =
-            contact_pair(&left, &right, &difference, (struct pair_limits){0.0, 1.0, 1.0}, law);
+            contact_pair(&left, &right, &difference, (struct pair_limits){0.0, 1.0, 1.0, 0.0}, law);
         assert_true(slips.stress == bonded.stress && slips.velocity == bonded.velocity);
         assert_true(slips.shear.y == 0.0);
         assert_near(slips.sliding.y, -left.shear.y / left.shear_impedance, 1e-9);
@@ -95,12 +95,44 @@ static void a_contact_law_opens_in_tension_and_lets_slip(void **state)
     }
 }
 
+/* A wave keeps all of its jump of stress, a jump of stress without motion moves nothing elastic,
+ * and what is not elastic moves as without the gate. */
+static void elastic_sides_count_jumps_of_stress_as_far_as_they_move(void **state)
+{
+    (void)state;
+    const struct pair_law law = {STAR_ACOUSTIC, true, true, false, true},
+                          whole = {STAR_ACOUSTIC, true, true, false, false};
+    const struct pair_limits elastic = {0.0, 0.0, 1.0, 1.0};
+    struct dice dice = {13};
+    for (int k = 0; k < 1000; k++) {
+        struct pair_side left = side_of_dice(&dice), right;
+        const double u = dice_between(&dice, -100.0, 100.0), v = dice_between(&dice, -50.0, 50.0);
+        right = left;
+        right.stress = left.stress + left.impedance * u;
+        right.shear.y = left.shear.y - left.shear_impedance * v;
+        const struct pair_difference wave = {
+            .velocity = u, .sliding = {0.0, v, 0.0}, .shear = vec3_sub(right.shear, left.shear)};
+        const struct pair_difference still = {.shear = wave.shear};
+        const struct pair_contact passes = contact_pair(&left, &right, &wave, elastic, law);
+        const struct pair_contact all = contact_pair(&left, &right, &wave, elastic, whole);
+        assert_near(passes.velocity, all.velocity, 1e-9);
+        assert_near(passes.sliding.y, all.sliding.y, 1e-9);
+        const struct pair_contact held = contact_pair(&left, &right, &still, elastic, law);
+        const struct pair_contact other = contact_pair(&left, &right, &still, free_of_laws, law);
+        const struct pair_contact moved = contact_pair(&left, &right, &still, elastic, whole);
+        assert_true(held.velocity == 0.0 && held.sliding.y == 0.0);
+        assert_true(other.velocity == moved.velocity && other.sliding.y == moved.sliding.y);
+        assert_true(held.stress == moved.stress && held.shear.y == moved.shear.y);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_parts_of_a_contact_are_acoustic),
         cmocka_unit_test(a_linear_field_is_met_in_the_middle),
         cmocka_unit_test(a_contact_law_opens_in_tension_and_lets_slip),
+        cmocka_unit_test(elastic_sides_count_jumps_of_stress_as_far_as_they_move),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

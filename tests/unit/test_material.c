@@ -346,6 +346,43 @@ static void a_fluid_keeps_no_deviator(void **state)
     assert_close(point.pressure, 2.0 * 1600.0 * 12.0, 1e-15);
 }
 
+/* The tensile parts of S and of -S add up to S, have nothing in common, and are what remains of the
+ * principal stresses; in a plane likewise. */
+static void the_tensile_part_of_a_stress_has_its_positive_principal_stresses(void **state)
+{
+    (void)state;
+    struct dice dice = {7};
+    for (int k = 0; k < 2000; k++) {
+        double principal[3] = {dice_between(&dice, -1e6, 1e6), dice_between(&dice, -1e6, 1e6),
+                               dice_between(&dice, -1e6, 1e6)};
+        if (k % 5 == 1)
+            principal[1] = principal[0];
+        if (k % 7 == 1)
+            principal[2] = 0.0;
+        const struct vec3 angle =
+            vec3_make(k % 2 ? 0.0 : dice_between(&dice, -0.4, 0.4),
+                      k % 2 ? 0.0 : dice_between(&dice, -0.4, 0.4), dice_between(&dice, -0.4, 0.4));
+        struct sym3 s = {principal[0], principal[1], principal[2], 0.0, 0.0, 0.0};
+        struct sym3 tensile = {maximum(principal[0], 0.0),
+                               maximum(principal[1], 0.0),
+                               maximum(principal[2], 0.0),
+                               0.0,
+                               0.0,
+                               0.0};
+        s = sym3_rotate(s, angle);
+        tensile = sym3_rotate(tensile, angle);
+        struct sym3 off = sym3_add(sym3_tensile(s), sym3_scale(-1.0, tensile));
+        assert_near(sqrt(sym3_square(off)), 0.0, 2e-2); /* the root of a rounding: cosines near 1 */
+        if (k % 2 == 0)
+            continue;
+        tensile.zz = 0.0;
+        off = sym3_add(sym3_tensile_in_plane(s), sym3_scale(-1.0, tensile));
+        assert_near(sqrt(sym3_square(off)), 0.0, 1e-6);
+    }
+    assert_true(sym3_square(sym3_tensile((struct sym3){0})) == 0.0);
+    assert_true(sym3_square(sym3_tensile_in_plane((struct sym3){0})) == 0.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -366,6 +403,7 @@ int main(void)
         cmocka_unit_test(elastic_uniaxial_strain_gives_four_thirds_of_the_shear_modulus),
         cmocka_unit_test(simple_shear_strains_by_the_whole_angle),
         cmocka_unit_test(a_fluid_keeps_no_deviator),
+        cmocka_unit_test(the_tensile_part_of_a_stress_has_its_positive_principal_stresses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

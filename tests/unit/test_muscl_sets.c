@@ -165,8 +165,9 @@ static void threads_rows_and_a_resume_do_not_change_a_bit(void **state)
 static void expected_forces_packing_and_supports_belong_to_the_state(void **state)
 {
     (void)state;
-    static const char *const names[] = {"expected_force", "packing", "support"};
-    static const size_t components[] = {3, 4, 1};
+    static const char *const names[] = {"expected_force", "closure", "heat_at_rest",
+                                        "credit",         "packing", "support"};
+    static const size_t components[] = {3, 3, 1, 1, 4, 1};
     const uint64_t wanted = hash_after(plane_gap, &plain, &plain, 20);
     for (size_t k = 0; k < COUNT_OF(names); k++) {
         struct running *run = begin_fresh(plane_gap, &plain);

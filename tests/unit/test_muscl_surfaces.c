@@ -34,7 +34,7 @@ static void sum_uniform_stress(struct running *run, const double stress[6])
 static void the_force_expected_at_a_free_plane_is_its_traction_over_a_layer(void **state)
 {
     (void)state;
-    static const double stress[6] = {2e8, 5e7, -1e8, 4e7, 2e7, -5e7};
+    static const double stress[6] = {-2e8, -5e7, -1e8, 4e7, 2e7, -5e7}; /* no tension */
     static const struct {
         const char *text, *smoothing;
         double expected, pairs;
@@ -349,6 +349,54 @@ static void what_flow_draws_out_keeps_its_neighbours_and_its_density(void **stat
     }
 }
 
+/* The force on the particle in the middle of a body under uniform stress, per unit of mass: it was
+ * moved by SHIFT along x, and its place is known since a step. */
+static double force_on_the_middle(const char *text, double stress, double shift)
+{
+    const double uniform[6] = {stress, stress, stress, 0.0, 0.0, 0.0};
+    struct running *run = begin_fresh(text, &plain);
+    struct particles *p = particles_of(&run->simulation);
+    int32_t middle = 0;
+    double nearest = 1.0;
+    for (int32_t i = 0; i < p->count; i++) {
+        const struct vec3 x = vector_at(p->position[i]);
+        if (vec3_dot(x, x) < nearest) {
+            nearest = vec3_dot(x, x);
+            middle = i;
+        }
+    }
+    p->position[middle][0] += shift;
+    sum_uniform_stress(run, uniform);
+    const struct muscl_fields f = muscl_fields_of(&run->sph, &run->simulation);
+    const double force = f.sph.rates.acceleration[middle][0];
+    end(run);
+    return force;
+}
+
+/* Under pressure what is open pushes it back; in tension the closure does. */
+static void a_particle_beside_its_place_is_drawn_back_in_tension_as_well(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        BODY("2", METAL, "metal", "{from: [-5.5 mm, -5.5 mm], to: [5.5 mm, 5.5 mm]}"),
+        BODY("2", LIQUID, "liquid", "{from: [-5.5 mm, -5.5 mm], to: [5.5 mm, 5.5 mm]}"),
+        BODY("2", METAL, "metal", "{from: [-6 mm, -6 mm], to: [6 mm, 6 mm]}, lattice: hexagonal"),
+        BODY("3", METAL, "metal",
+             "{from: [-4.5 mm, -4.5 mm, -4.5 mm], to: [4.5 mm, 4.5 mm, 4.5 mm]}"),
+        BODY("3", LIQUID, "liquid",
+             "{from: [-4.5 mm, -4.5 mm, -4.5 mm], to: [4.5 mm, 4.5 mm, 4.5 mm]}")};
+    for (size_t k = 0; k < COUNT_OF(texts); k++) {
+        const double shift = 1e-5, stress = 1e8;
+        const double pushed = force_on_the_middle(texts[k], -stress, shift) -
+                              force_on_the_middle(texts[k], -stress, 0.0);
+        const double drawn = force_on_the_middle(texts[k], stress, shift) -
+                             force_on_the_middle(texts[k], stress, 0.0);
+        assert_true(pushed < 0.0);
+        assert_true(drawn < 0.0);
+        assert_true(drawn > pushed); /* softer than under pressure */
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -358,6 +406,7 @@ int main(void)
         cmocka_unit_test(volumes_that_overlap_are_squeezed_and_volumes_apart_are_not),
         cmocka_unit_test(packing_counts_from_that_of_the_start),
         cmocka_unit_test(what_flow_draws_out_keeps_its_neighbours_and_its_density),
+        cmocka_unit_test(a_particle_beside_its_place_is_drawn_back_in_tension_as_well),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

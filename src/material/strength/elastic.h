@@ -57,16 +57,64 @@ BOLIDE_INLINE struct sym3 strength_elastic(double shear_modulus, const struct mo
     return sym3_rotate(s, vec3_scale(motion->dt, motion->spin));
 }
 
-/* The largest eigenvalue of a deviator (Smith, Commun. ACM 4 (1961) 168). */
-BOLIDE_INLINE double sym3_largest(struct sym3 s)
+/* The largest eigenvalue of a deviator, and the smallest if SIGN is -1 in place of 1 (Smith,
+ * Commun. ACM 4 (1961) 168). */
+BOLIDE_INLINE double sym3_extreme(struct sym3 s, double sign)
 {
     double radius = sqrt(sym3_square(s) / 6.0);
     if (!(radius > 0.0))
         return 0.0;
     double determinant = s.xx * (s.yy * s.zz - s.yz * s.yz) - s.xy * (s.xy * s.zz - s.yz * s.zx) +
                          s.zx * (s.xy * s.yz - s.yy * s.zx);
-    double half = 0.5 * determinant / (radius * square(radius));
-    return 2.0 * radius * cosine_of_third(maximum(-1.0, minimum(1.0, half)));
+    double half = 0.5 * sign * determinant / (radius * square(radius));
+    return 2.0 * sign * radius * cosine_of_third(maximum(-1.0, minimum(1.0, half)));
+}
+BOLIDE_INLINE double sym3_largest(struct sym3 s) { return sym3_extreme(s, 1.0); }
+
+/* (S - a)(S - b) SCALE of a symmetric tensor S, symmetric as well. */
+BOLIDE_INLINE struct sym3 sym3_between(struct sym3 s, double a, double b, double scale)
+{
+    const double less = a + b, both = a * b;
+    const struct sym3 p = {s.xx * s.xx + s.xy * s.xy + s.zx * s.zx - less * s.xx + both,
+                           s.xy * s.xy + s.yy * s.yy + s.yz * s.yz - less * s.yy + both,
+                           s.zx * s.zx + s.yz * s.yz + s.zz * s.zz - less * s.zz + both,
+                           s.xx * s.xy + s.xy * s.yy + s.zx * s.yz - less * s.xy,
+                           s.xy * s.zx + s.yy * s.yz + s.yz * s.zz - less * s.yz,
+                           s.xx * s.zx + s.xy * s.yz + s.zx * s.zz - less * s.zx};
+    return sym3_scale(scale, p);
+}
+
+/* The tensile part of a stress: its eigenvectors with their eigenvalues where positive, else zero.
+ * The eigenvector that alone has its sign is projected out, whatever the gap between the others. */
+BOLIDE_INLINE struct sym3 sym3_tensile(struct sym3 s)
+{
+    const double mean = sym3_trace(s) / 3.0;
+    const struct sym3 deviator = {s.xx - mean, s.yy - mean, s.zz - mean, s.xy, s.yz, s.zx};
+    const double first = mean + sym3_extreme(deviator, 1.0);
+    const double last = mean + sym3_extreme(deviator, -1.0), middle = 3.0 * mean - first - last;
+    if (first <= 0.0)
+        return (struct sym3){0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    if (last >= 0.0)
+        return s;
+    if (middle <= 0.0)
+        return sym3_between(s, middle, last, first / ((first - middle) * (first - last)));
+    const double scale = last / ((first - last) * (middle - last));
+    return sym3_add(s, sym3_between(s, first, middle, -scale));
+}
+
+/* The same of the components in the plane; nothing is left across it. */
+BOLIDE_INLINE struct sym3 sym3_tensile_in_plane(struct sym3 s)
+{
+    const double mean = 0.5 * (s.xx + s.yy), half = 0.5 * (s.xx - s.yy);
+    const double radius = sqrt(square(half) + square(s.xy));
+    const double first = maximum(mean + radius, 0.0), last = maximum(mean - radius, 0.0);
+    const double turn = radius > 0.0 ? 0.5 * (first - last) / radius : 0.0;
+    return (struct sym3){0.5 * (first + last) + turn * half,
+                         0.5 * (first + last) - turn * half,
+                         0.0,
+                         turn * s.xy,
+                         0.0,
+                         0.0};
 }
 
 /* The equivalent strain rate of a deviator, sqrt(2/3 e:e), of STRAIN_RATE with its trace. */

@@ -10,7 +10,7 @@
 #include "sph/muscl/sums.h"
 
 enum {
-    FIELDS = 32,
+    FIELDS = 44,
     GROUPS = 4 /* of eight neighbours: most lists in 3-D fit */
 };
 
@@ -36,6 +36,7 @@ struct pairs {
     double along_u[LANES] ALIGNED, along_i[LANES] ALIGNED, along_j[LANES] ALIGNED;
     double across_u[3][LANES] ALIGNED, across_s[3][LANES] ALIGNED, traction[3][LANES] ALIGNED;
     double share[8][LANES] ALIGNED;
+    double moves[3][LANES] ALIGNED; /* velocity of the contact relative to the own particle */
 };
 
 /* Adds V to the sums of a vector that begin at AT, and V^a E^b to those of a tensor. */
@@ -285,7 +286,7 @@ BOLIDE_INLINE void find_changes(struct muscl_kind kind, double material, const d
  * particle i and to its neighbour; the neighbour's compression relative to that of i, and its
  * packing. */
 struct volume_pair {
-    double counts, like, contact, compression, packing;
+    double counts, like, contact, compression, packing, credit;
     struct vec3 moved;
 };
 
@@ -306,6 +307,8 @@ BOLIDE_INLINE void add_volume(struct muscl_kind kind, const struct pairs *pairs,
     add_product(dimension, sums, at.parting, k, pair->moved, m);
     sums[at.like][k] += pair->like * pairs->value[k];
     sums[at.packing][k] += pair->like * pairs->value[k] * pair->packing;
+    if (kind.shear)
+        sums[at.credit][k] += pair->like * pairs->value[k] * pair->credit;
     sums[at.exchange][k] += 0.5 * (1.0 + pair->compression) * weight * lead;
 }
 
@@ -324,7 +327,7 @@ BOLIDE_INLINE struct solved_pair solve_pair(struct muscl_kind kind, bool with_la
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
     const int z = muscl_impedance(kind), q = muscl_shock_slope(kind);
-    const struct pair_law law = {STAR_SHOCK, shear, true, with_law};
+    const struct pair_law law = {STAR_SHOCK, shear, true, with_law, shear};
     const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
     struct pair_side left = {.impedance = own[z],
                              .shock_slope = own[q],
@@ -336,7 +339,7 @@ BOLIDE_INLINE struct solved_pair solve_pair(struct muscl_kind kind, bool with_la
                               .carried = {pairs->share[1][k], pairs->share[3][k], 0.0, 0.0}};
     struct pair_difference difference = {.velocity = pairs->along_u[k]};
     struct pair_limits limits = {with_law ? lanes->slip[k] : 0.0, with_law ? lanes->open[k] : 0.0,
-                                 1.0};
+                                 1.0, 0.0};
     if (dimension > 1) {
         /* fluids that shear past each other are not braked as if they met */
         const double own_share = -own[z + 1], other_share = -lanes->field[z + 1][k];
@@ -354,6 +357,8 @@ BOLIDE_INLINE struct solved_pair solve_pair(struct muscl_kind kind, bool with_la
         difference.shear = vector_from(dimension, &pairs->across_s[0][k], LANES);
         left.carried.shear = pairs->share[6][k];
         right.carried.shear = pairs->share[7][k];
+        const int elastic = muscl_elasticity(kind);
+        limits.elastic = with_law ? 0.0 : minimum(own[elastic], lanes->field[elastic][k]);
     }
     return (struct solved_pair){contact_pair(&left, &right, &difference, limits, law), limits,
                                 difference.sliding};
@@ -361,7 +366,7 @@ BOLIDE_INLINE struct solved_pair solve_pair(struct muscl_kind kind, bool with_la
 
 /* Solves the Riemann problem of lane K and adds it to the sums. */
 BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const double *own,
-                               const struct lanes *lanes, const struct pairs *pairs,
+                               const struct lanes *lanes, struct pairs *pairs,
                                double (*sums)[LANES], int k)
 {
     const int dimension = kind.dimension, m = muscl_material(kind);
@@ -410,24 +415,28 @@ BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const doub
     add_product(dimension, sums, at.gradient, k, w,
                 vec3_scale(moves, vector_from(dimension, &pairs->e[0][k], LANES)));
     if (dimension > 1) {
+        put_vector(dimension, pairs->moves, k, w);
+        add_vector(dimension, sums, at.open, k, vec3_scale(weight * pairs->area[k], n));
         /* Bodies keep their volumes where they part, and where they slide past each other. */
         const double counts = star.stress == 0.0 ? 1.0 - solved.limits.open : meets;
         const struct vec3 moved = vec3_add(vec3_scale(pairs->along_u[k], n),
                                            vec3_scale(1.0 - solved.limits.slip, solved.sliding));
         const double ratio = per_own * lanes->field[compression][k], by = square(ratio);
         const double like = counts * minimum(by, 1.0) / maximum(by, 1.0);
-        const struct volume_pair volume = {.counts = counts,
-                                           .like = own_m == lanes->field[m][k] ? like : 0.0,
-                                           .contact = vec3_dot(w, n),
-                                           .compression = kind.depth ? minimum(ratio, 2.0) : ratio,
-                                           .packing = lanes->field[muscl_packing(kind)][k],
-                                           .moved = moved};
+        const struct volume_pair volume = {
+            .counts = counts,
+            .like = own_m == lanes->field[m][k] ? like : 0.0,
+            .contact = vec3_dot(w, n),
+            .compression = kind.depth ? minimum(ratio, 2.0) : ratio,
+            .packing = lanes->field[muscl_packing(kind)][k],
+            .credit = kind.shear ? lanes->field[muscl_credit(kind)][k] : 0.0,
+            .moved = moved};
         add_volume(kind, pairs, k, &volume, sums);
     }
 }
 
 BOLIDE_INLINE void add_contacts(struct muscl_kind kind, bool with_law, const double *own,
-                                const struct lanes *lanes, const struct pairs *pairs,
+                                const struct lanes *lanes, struct pairs *pairs,
                                 double (*sums)[LANES])
 {
 #pragma omp simd simdlen(8)

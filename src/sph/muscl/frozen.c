@@ -46,6 +46,16 @@ struct error *frozen_find(struct sph *sph, const struct simulation *simulation)
     return NULL;
 }
 
+/* Closes the gate of the particles that were found: the surface there does work that no credit of
+ * theirs limits (record.c). */
+void frozen_close(const struct sph *sph, struct muscl_kind kind)
+{
+    const struct muscl_state *state = sph->state;
+    for (int32_t k = 0; k < state->ends; k++)
+        sph->record[(size_t)state->end[k].index * (size_t)muscl_stride(kind) +
+                    (size_t)muscl_elasticity(kind)] = 0.0;
+}
+
 /* What the row of a particle says of the surface. */
 struct surface {
     struct vec3 outwards; /* a unit vector; zero where nothing frozen is in support */

@@ -5,6 +5,7 @@
 
 #include "base/isa.h"
 #include "sph/muscl/body.h"
+#include "sph/muscl/closure.h"
 #include "sph/muscl/rates.h"
 
 /* Neighbours of one part of a row, and whether contact laws act. */
@@ -52,6 +53,8 @@ BOLIDE_INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kin
             else
                 for (int m = 0; m < groups; m++)
                     add_contacts(kind, false, own, &lanes[m], &pairs[m], sums->lane);
+            if (kind.dimension > 1 && !part.with_law) /* laws let bodies part */
+                add_pulls(kind, own, groups, lanes, pairs, sums->lane);
             if (muscl_narrow(kind) > 0)
                 for (int m = 0; m < groups; m++)
                     add_slopes(kind, own, &lanes[m], &pairs[m], sums->lane);

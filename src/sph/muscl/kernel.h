@@ -6,12 +6,16 @@
  * contacts are solved along n = a/|a|. And impedances are those of shocks. A neighbour is seen
  * through its record:
  *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_across] shock_slope material
- *   [compression packing] [depth] L (as a stress)  dq/dx [dq/dy [dq/dz]]  q'
+ *   [compression packing closure] [elastic credit pull] [depth] L (as a stress)  dq/dx [dq/dy [dq/dz]]  q'
  * with stress as in record.h, velocity and stress half a step ahead, q' both of them a whole step,
  * and `shock_slope` rho times the slope of the shock adiabat (riemann/shock_slope.h). Z_across is
  * the shear impedance; of a material that has none, minus the fraction of compression in its
  * velocity gradient. In 2-D and 3-D `compression` is rho over that of the start, and `packing` what
- * volumes filled too much of the space a step before (muscl_limit_excess).
+ * volumes filled too much of the space a step before (muscl_limit_excess), and `closure` the
+ * displacement that would have closed the areas of the particle (find_closure). Where there are
+ * solids, `elastic` is 0 for fluids, what flows plastically and what has failed, and up to 1 for
+ * other solids (record.c), `credit` the work that these may still give (find_credit), and `pull`
+ * the tensile part of the stress.
  *
  * Of q, the first four or eight values (the most that there are) stand at the end of the record, a
  * row for dq/dx, one for dq/dy, ..., one for q': the kernel takes these a neighbour at a time, a
@@ -66,9 +70,26 @@ BOLIDE_INLINE double muscl_limit_excess(double excess)
 {
     return minimum(0.1, maximum(-0.05, excess));
 }
-BOLIDE_INLINE int muscl_depth(struct muscl_kind kind)
+/* 1 for solids but soft ones, whose shear waves are slower than a third of their sound: these are
+ * held by their jumps of stress, and come apart in tension. */
+BOLIDE_INLINE double muscl_firmness(double sound_long, double sound_shear)
+{
+    return minimum(1.0, 10.0 * square(sound_shear / sound_long));
+}
+BOLIDE_INLINE int muscl_closure(struct muscl_kind kind)
 {
     return muscl_packing(kind) + (kind.dimension > 1);
+}
+BOLIDE_INLINE int muscl_elasticity(struct muscl_kind kind)
+{
+    return muscl_closure(kind) + (kind.dimension > 1 ? kind.dimension : 0);
+}
+BOLIDE_INLINE int muscl_credit(struct muscl_kind kind) { return muscl_elasticity(kind) + 1; }
+BOLIDE_INLINE int muscl_pull(struct muscl_kind kind) { return muscl_credit(kind) + 1; }
+BOLIDE_INLINE int muscl_depth(struct muscl_kind kind)
+{
+    return kind.dimension > 1 && kind.shear ? muscl_pull(kind) + muscl_stresses(kind)
+                                            : muscl_elasticity(kind);
 }
 BOLIDE_INLINE int muscl_correction(struct muscl_kind kind)
 {
@@ -129,6 +150,8 @@ struct muscl_rates {
     double (*force)[3];                 /* likewise, on a unit of volume, N/m^3 */
     double (*packing)[PACKING_NUMBERS]; /* NULL in 1-D */
     double (*volume)[VOLUME_NUMBERS];   /* NULL in 1-D */
+    double (*closure)[3];               /* see find_closure, m; NULL in 1-D */
+    double *credit;                     /* see find_credit, J/kg; NULL without solids */
 };
 
 struct muscl_loop {

@@ -33,7 +33,9 @@ struct muscl_state {
 struct muscl_own_fields {
     double *correction, *velocity_gradient, *stress_gradient;
     double (*force)[3];
-    double *hoop_stress; /* NULL but in axisymmetry */
+    double (*closure)[3];  /* NULL in 1-D */
+    double *heat, *credit; /* NULL without solids, and in 1-D */
+    double *hoop_stress;   /* NULL but in axisymmetry */
 };
 struct muscl_fields {
     struct sph_fields sph;
@@ -75,6 +77,7 @@ void muscl_pack(struct sph *sph, const struct simulation *simulation);
 /* frozen.c. Finds the particles next to transmitting bodies after lists were rebuilt; adds to their
  * sums what these bodies push, and removes the rates of the bodies; books that for a step of DT. */
 struct error *frozen_find(struct sph *sph, const struct simulation *simulation);
+void frozen_close(const struct sph *sph, struct muscl_kind kind);
 void frozen_push(struct sph *sph, const struct simulation *simulation,
                  const struct muscl_fields *fields);
 void frozen_book(const struct sph *sph, struct simulation *simulation, double dt);

@@ -59,11 +59,53 @@ BOLIDE_INLINE bool has_failed(const struct simulation *simulation, const struct 
            p->history[HISTORY_damage][i] >= 1.0;
 }
 
+BOLIDE_INLINE double firmness_of(const struct muscl_fields *f, int32_t i)
+{
+    return muscl_firmness(f->sph.sound_long[i], f->sph.sound_shear[i]);
+}
+
+/* Which part of its closure moves particle I: none of what has failed and of products, which part,
+ * and little of a soft solid, whose lattice is held by its jumps of stress. */
+BOLIDE_INLINE double closes(const struct simulation *simulation, const struct muscl_fields *f,
+                            int32_t i)
+{
+    const struct particles *p = f->sph.particles;
+    if (has_failed(simulation, p, i) || body_is_frozen(simulation, p->body[i]) ||
+        material_burns(&simulation->problem->material[p->material[i]]))
+        return 0.0;
+    return f->sph.sound_shear[i] > 0.0 ? firmness_of(f, i) : 1.0;
+}
+
+/* Puts the components of TENSOR that a record has at TO. */
+BOLIDE_INLINE void put_stresses(int dimension, struct sym3 tensor, double *to)
+{
+    to[0] = tensor.xx;
+    to[1] = tensor.yy;
+    to[2] = dimension == 2 ? tensor.xy : tensor.zz;
+    if (dimension == 3) {
+        to[3] = tensor.xy;
+        to[4] = tensor.yz;
+        to[5] = tensor.zx;
+    }
+}
+
+/* From 0 to 1 between 4 and 12 diameters from an axis. Nearer to it the gradients of velocity and
+ * the forces of stress are not quite adjoint, and without the whole jump rings would vibrate ever
+ * more. */
+BOLIDE_INLINE double far_from_axis(const struct simulation *simulation,
+                                   const struct muscl_fields *f, int32_t i)
+{
+    if (!sph_axisymmetric(simulation))
+        return 1.0;
+    const double away = fabs(f->sph.particles->position[i][0]) / f->sph.diameter[i];
+    return minimum(1.0, maximum(0.0, 0.125 * (away - 4.0)));
+}
+
 /* By how much velocity and stress of particle I change in half a step. The pressure follows the
- * adiabat's slope, the deviator its law, plasticity included. */
+ * adiabat's slope, the deviator its law, plasticity included. ELASTIC as in kernel.h. */
 BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
                                        const struct muscl_fields *f, struct muscl_kind kind,
-                                       double ahead, int32_t i, double velocity[3])
+                                       double ahead, int32_t i, double velocity[3], double *elastic)
 {
     const struct particles *p = f->sph.particles;
     const struct strength *strength = &simulation->problem->material[p->material[i]].strength;
@@ -86,17 +128,22 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
     if (f->sph.thickness) /* no stress rate across the plate */
         strain.zz = -(strain.xx + strain.yy) * (1.0 - 2.0 * shear_square / sound_square);
     const double bulk = p->density[i] * (sound_square - 4.0 / 3.0 * shear_square);
+    *elastic = 0.0;
     if (strength_is_solid(strength) && !failed) {
         struct motion motion = {
             .dt = ahead, .density = p->density[i], .strain_rate = strain, .spin = spin};
         struct point point = {p->density[i], p->energy[i], p->pressure[i], start, {0.0}};
+        double flowed = 0.0;
         if (strength_is_plain(strength)) {
             strength_plain_step(strength, &motion, &point);
         } else {
             particle_load_history(p, i, point.history);
+            flowed = point.history[HISTORY_plastic_strain];
             flow_rarely(strength, &motion, bulk, &point);
         }
         stress = point.deviator;
+        if (point.history[HISTORY_plastic_strain] <= flowed)
+            *elastic = firmness_of(f, i) * far_from_axis(simulation, f, i);
     }
     double pressure = ahead * bulk * sym3_trace(strain);
     if (failed && p->history[HISTORY_void_ratio][i] > 0.0)
@@ -129,6 +176,36 @@ BOLIDE_INLINE double across_impedance(const struct muscl_fields *f, struct muscl
     return -(divergence + tiny) / (divergence + curl + tiny);
 }
 
+/* The elastic energy of particle I, J/kg. */
+BOLIDE_INLINE double elastic_energy(const struct muscl_fields *f, int32_t i)
+{
+    const struct particles *p = f->sph.particles;
+    const double tiny = 1e-100, shear = square(f->sph.sound_shear[i]);
+    const double bulk = square(f->sph.sound_long[i]) - 4.0 / 3.0 * shear;
+    const double deviatoric = 0.25 * sym3_square(sym3_make(p->deviator[i])) / (shear + tiny);
+    return (deviatoric + 0.5 * square(p->pressure[i]) / (bulk + tiny)) / square(p->density[i]);
+}
+
+/* The second law for vibrations: what the gate leaves open for particle I, of ELASTIC, and its
+ * credit. The sums of gradients and of forces are not quite adjoint. Without the jumps of stress,
+ * which dissipate, a body could give more work than it took and cool. The heat of a particle is its
+ * energy less the elastic one, from when it last flowed. Single particles may give what others near
+ * them dissipate; where the mean around falls to a loan of some hundredths of the elastic energy,
+ * the gate closes. The mean is taken again and again, over wider neighbourhoods than a kernel's. */
+BOLIDE_INLINE double gate_of(const struct muscl_fields *f, int32_t i, double elastic,
+                             double *credit)
+{
+    const double loan = 0.03, renewed = 0.05, tiny = 1e-100;
+    const double stored = elastic_energy(f, i), heat = f->sph.particles->energy[i] - stored;
+    double *from = &f->own.heat[i], mean = f->own.credit[i];
+    if (!(elastic > 0.0) || *from == 0.0) { /* it flows, or is fresh */
+        *from = heat != 0.0 ? heat : tiny;
+        mean = loan * stored;
+    }
+    *credit = renewed * (heat - *from + loan * stored) + (1.0 - renewed) * mean;
+    return elastic * minimum(1.0, maximum(0.0, mean / (0.1 * loan * stored + tiny)));
+}
+
 /* The record of particle I. */
 BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *simulation,
                               const struct muscl_fields *f, struct muscl_kind kind, int32_t i,
@@ -137,8 +214,8 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
     const struct particles *p = sph->particles;
     const struct muscl_state *state = sph->state;
     int dimension = kind.dimension, stresses = muscl_stresses(kind), k = 0;
-    double velocity[3];
-    const struct sym3 change = half_step_of(simulation, f, kind, sph->ahead, i, velocity);
+    double velocity[3], elastic;
+    const struct sym3 change = half_step_of(simulation, f, kind, sph->ahead, i, velocity, &elastic);
     const double *s = p->deviator[i], pressure = p->pressure[i];
     for (int axis = 0; axis < dimension; axis++)
         record[k++] = p->position[i][axis];
@@ -165,6 +242,20 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
     if (dimension > 1) {
         record[k++] = p->density[i] / f->sph.density_start[i];
         record[k++] = muscl_limit_excess(f->sph.packing[i][PACKING_EXCESS]);
+    }
+    if (dimension > 1) {
+        const double share = closes(simulation, f, i);
+        for (int axis = 0; axis < dimension; axis++)
+            record[k++] = share * f->own.closure[i][axis];
+    }
+    if (dimension > 1 && kind.shear) {
+        const struct sym3 stress = sym3_add(sym3_make(at), change);
+        record[k] = gate_of(f, i, elastic, &record[k + 1]);
+        k += 2;
+        put_stresses(dimension,
+                     dimension == 2 ? sym3_tensile_in_plane(stress) : sym3_tensile(stress),
+                     record + k);
+        k += stresses;
     }
     if (kind.depth)
         record[k++] = sph_depth(simulation, &f->sph, i);
@@ -195,8 +286,12 @@ static void reflect(const struct sph *sph, const struct simulation *simulation, 
     assert(dimension >= 1 && dimension <= 3);
     sph_reflect_motion(simulation, image, record);
     sph_reflect_tensor(dimension, sign, record + muscl_correction(kind));
-    if (tensor)
+    if (tensor) {
         sph_reflect_tensor(dimension, sign, record + record_stress(dimension));
+        sph_reflect_tensor(dimension, sign, record + muscl_pull(kind));
+    }
+    for (int a = 0; a < dimension && dimension > 1; a++)
+        record[muscl_closure(kind) + a] *= signs[a];
     /* the slopes along each axis; behind them what comes after the step */
     for (int a = 0; a <= dimension; a++) {
         const double turned = a < dimension ? signs[a] : 1.0;
@@ -231,6 +326,8 @@ BOLIDE_INLINE void pack_all(const struct sph *sph, const struct simulation *simu
         pack_owned(sph, simulation, f, kind, i, sph->record + (size_t)i * stride);
         place_record(sph, kind.dimension, i, stride);
     }
+    if (kind.shear && kind.dimension > 1)
+        frozen_close(sph, kind);
 }
 
 #define PACK_KIND(name, ...)                                                     \

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
+#include "material/any.h"
 #include "material/material.h"
 #include "sph/lanes.h"
 #include "sph/prune.h"
@@ -24,6 +25,20 @@ const struct field_row muscl_rows[] = {
     {.field = {"expected_force", "N/m^3", "force of the next step", NUMBER_DOUBLE, 3, FIELD_STATE},
      .where = "method: muscl",
      AT(force)},
+    {.field = {"closure", "m", "displacement that closes areas", NUMBER_DOUBLE, 3, FIELD_STATE},
+     .when = SPH_PLANE,
+     .where = "method: muscl in 2-D and 3-D",
+     AT(closure)},
+    {.field = {"heat_at_rest", "J/kg", "energy less the elastic one, when it last flowed",
+               NUMBER_DOUBLE, 1, FIELD_STATE},
+     .when = SPH_SHEAR,
+     .where = "method: muscl, solids in 2-D and 3-D",
+     AT(heat)},
+    {.field = {"credit", "J/kg", "work that particles near it may still give", NUMBER_DOUBLE, 1,
+               FIELD_STATE},
+     .when = SPH_SHEAR,
+     .where = "method: muscl, solids in 2-D and 3-D",
+     AT(credit)},
     {.field = {"hoop_stress", NULL, "hoop stress half a step ahead", NUMBER_DOUBLE, 1,
                FIELD_PASSING},
      .when = SPH_AXISYMMETRIC,
@@ -73,7 +88,8 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
                   .velocity = (const double(*)[3])p->velocity,
                   .rates = {fields->sph.rates, fields->own.correction,
                             fields->own.velocity_gradient, fields->own.stress_gradient,
-                            fields->own.force, fields->sph.packing, fields->sph.volume}},
+                            fields->own.force, fields->sph.packing, fields->sph.volume,
+                            fields->own.closure, fields->own.credit}},
         .prune = {sph->record, (int)sph->stride, p->dimension, sph->place,
                   sph->parameters.smoothing, &sph->neighbours}};
     sph_sweep(sph, simulation, &records, &(struct sph_sweep){rates_of_block, &sweep, 1, "pairs"});
@@ -197,6 +213,14 @@ static const char *energy_lost(const void *options)
     return sph_energy_lost_by(((const struct muscl_options *)options)->energy);
 }
 
+/* Soft solids, and fluids. */
+static bool loses_tension(const struct material *material)
+{
+    struct point rest = {.density = material_density(material)};
+    const struct response r = any_material_evaluate(material, &rest);
+    return muscl_firmness(r.sound_long, r.sound_shear) < 1.0;
+}
+
 const struct sph_scheme muscl_scheme = {.name = "muscl",
                                         .smoothing = {1.0, 1.2, 1.2},
                                         .courant = 0.4,
@@ -206,6 +230,7 @@ const struct sph_scheme muscl_scheme = {.name = "muscl",
                                         .rows = muscl_rows,
                                         .traits = traits_of,
                                         .energy_lost = energy_lost,
+                                        .loses_tension = loses_tension,
                                         .stride = stride_of,
                                         .create = create,
                                         .start = start,

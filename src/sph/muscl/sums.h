@@ -7,7 +7,7 @@
 #include "sph/muscl/kernel.h"
 #include "sph/record.h"
 
-enum { SUMS = 48, ROW = 8, TOTALS = SUMS + 28 /* 3 (ROW + 1), a multiple of four */ };
+enum { SUMS = 56, ROW = 8, TOTALS = SUMS + 28 /* 3 (ROW + 1), a multiple of four */ };
 
 /* Where the sums over a row stand, with w = V W' and f = 2 D_i/(D_i + D_j) twice the share of the
  * pair that i has. */
@@ -21,8 +21,8 @@ struct layout {
     int narrow;          /* slopes of what stands in no row */
     int hoop;            /* of axisymmetry: w |a| (depth - d) n_x, w |a| x n_x */
     /* in 2-D and 3-D, v = V W/h^2: v x^a x^b, v (U_j - U)^a x^b; w |a| of the exchange of volume; v
-     * of like material, v times its packing */
-    int spread, parting, exchange, like, packing;
+     * of like material, v times its packing, of solids v times its credit; w a */
+    int spread, parting, exchange, like, packing, open, credit;
     /* totals only: -f w dq e^b by b, of the values after the step; a multiple of eight before */
     int slopes;
     int count;
@@ -47,7 +47,9 @@ BOLIDE_INLINE struct layout layout_of(struct muscl_kind kind)
     at.exchange = at.parting + (dimension > 1 ? dimension * dimension : 0);
     at.like = at.exchange + (dimension > 1 ? 1 : 0);
     at.packing = at.like + (dimension > 1 ? 1 : 0);
-    at.slopes = (at.packing + (dimension > 1 ? 1 : 0) + 7) / 8 * 8;
+    at.open = at.packing + (dimension > 1 ? 1 : 0);
+    at.credit = at.open + (dimension > 1 ? dimension : 0);
+    at.slopes = (at.credit + (dimension > 1 && kind.shear ? 1 : 0) + 7) / 8 * 8;
     at.count = at.slopes + dimension * muscl_values(kind);
     return at;
 }
