@@ -173,6 +173,12 @@ struct measure_bulge {
     double link;
 };
 
+struct measure_perforation {
+    int along, side, take;
+    struct vector_value center;
+    double link;
+};
+
 struct measure_zone {
     char *field;
     double value;
@@ -237,6 +243,8 @@ double conserved_change(const struct simulation *simulation, const struct totals
     X(hole, hole, "diameter of the hole in a body about an axis; 0 if there is none")             \
     X(crater, crater, "depth, diameter or volume of a crater below the original face of a body")  \
     X(bulge, bulge, "how far a body has been pushed out of one of its faces")                     \
+    X(perforation, perforation,                                                                   \
+      "hole, least thickness left, or mass that came through, of a wall that was struck")         \
     X(zone, zone, "diameter or shape of the part of a face in which a field reaches a value")     \
     X(asymmetry, asymmetry,                                                                       \
       "largest difference of a field from its mirror image, over its largest value")              \

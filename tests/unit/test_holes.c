@@ -115,6 +115,58 @@ static void a_hole_divides_a_plane_plate(void **state)
     assert_true(isnan(value[1])); /* it goes through */
 }
 
+static const char wall_checks[] =
+    "  hole: {perforation: {along: y, side: high}, of: plate, at_least: 0 m}\n"
+    "  left: {perforation: {along: y, side: high, take: thickness}, of: plate, at_least: 0 m}\n";
+
+static void a_wall_keeps_its_thickness_and_a_groove_takes_some(void **state)
+{
+    (void)state;
+    static const char *const texts[][2] = {
+        {PLANE, "box: {from: [-15 mm, 0 mm], to: [15 mm, 4 mm]}"},
+        {ROUND, "box: {from: [0 mm, 0 mm], to: [15 mm, 4 mm]}"},
+        {PLANE, "difference: [box: {from: [-15 mm, 0 mm], to: [15 mm, 4 mm]}, box: {from: [-4 mm, "
+                "-1 mm], to: [4 mm, 3 mm]}]"},
+        {ROUND, "difference: [box: {from: [0 mm, 0 mm], to: [15 mm, 4 mm]}, box: {from: [0 mm, -1 "
+                "mm], to: [4 mm, 3 mm]}]"},
+        {PLANE, "difference: [box: {from: [-15 mm, 0 mm], to: [15 mm, 4 mm]}, box: {from: [-4 mm, "
+                "-1 mm], to: [4 mm, 5 mm]}]"},
+        {ROUND, "difference: [box: {from: [0 mm, 0 mm], to: [15 mm, 4 mm]}, box: {from: [0 mm, -1 "
+                "mm], to: [4 mm, 5 mm]}]"}};
+    static const double wanted[][2] = {{0.0, 4e-3}, {0.0, 4e-3}, {0.0, 1e-3},
+                                       {0.0, 1e-3}, {8e-3, 0.0}, {8e-3, 0.0}};
+    for (size_t k = 0; k < COUNT_OF(texts); k++) {
+        char *text = text_format("%sbodies:\n  plate:\n    material: metal\n    %s\n%s",
+                                 texts[k][0], texts[k][1], CHECKS);
+        double value[VALUES];
+        measure_all(text, wall_checks, 2, value);
+        free(text);
+        assert_float_equal(value[0], wanted[k][0], 0.6e-3);
+        assert_float_equal(value[1], wanted[k][1], 1e-8);
+    }
+}
+
+/* Behind the wall: debris from its middle, and some that flew past its rim. */
+static void debris_that_flew_past_the_rim_did_not_come_through(void **state)
+{
+    (void)state;
+    static const char text[] = ROUND
+        "bodies:\n  plate: {material: metal, box: {from: [0 mm, 0 mm], to: [15 mm, 4 mm]}}\n"
+        "  through: {material: metal, velocity: [100 m/s, 100 m/s], box: {from: [18 mm, 16 mm], "
+        "to: "
+        "[20 mm, 18 mm]}}\n"
+        "  past: {material: metal, velocity: [10 m/s, 100 m/s], box: {from: [18 mm, 10 mm], to: "
+        "[20 mm, 12 mm]}}\n"
+        "  before: {material: metal, velocity: [0 m/s, 100 m/s], box: {from: [0 mm, -8 mm], to: [2 "
+        "mm, -6 mm]}}\n" CHECKS;
+    double value[VALUES];
+    measure_all(text,
+                "  mass: {perforation: {along: y, side: high, take: mass}, of: plate, at_least: 0 "
+                "kg}\n",
+                1, value);
+    assert_float_equal(value[0], 2.0 * 0.5 * (400e-6 - 324e-6) * 2e-3, 1e-12);
+}
+
 static void debris_in_a_hole_does_not_count(void **state)
 {
     (void)state;
@@ -342,6 +394,8 @@ int main(void)
         cmocka_unit_test(a_quarter_of_a_plate_has_the_hole_of_the_whole),
         cmocka_unit_test(a_whole_plate_has_no_hole_and_no_crater),
         cmocka_unit_test(a_hole_divides_a_plane_plate),
+        cmocka_unit_test(a_wall_keeps_its_thickness_and_a_groove_takes_some),
+        cmocka_unit_test(debris_that_flew_past_the_rim_did_not_come_through),
         cmocka_unit_test(debris_in_a_hole_does_not_count),
         cmocka_unit_test(a_crater_has_the_size_of_its_ball),
         cmocka_unit_test(a_crater_about_the_axis_of_symmetry),
