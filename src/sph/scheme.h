@@ -37,6 +37,7 @@ enum sph_trait {
     SPH_ALL_RECONSTRUCTED = 1 << 16,
     SPH_PERIODIC = 1 << 17, /* an axis is periodic */
     SPH_BREAKS = 1 << 18,   /* contacts break */
+    SPH_LAWS = 1 << 19,     /* contact laws act between bodies */
 };
 
 /* Components that depend on the run: of a symmetric tensor and of a gradient of velocity in its

@@ -98,6 +98,7 @@ static unsigned traits_of(const struct sph *sph, const struct simulation *simula
     traits |= simulation->problem->dimension > 1 ? SPH_PLANE : 0u;
     traits |= strong && simulation->problem->dimension > 1 ? SPH_SHEAR : 0u;
     traits |= fails && sph->scheme->breaks ? SPH_BREAKS : 0u;
+    traits |= sph_has_laws(simulation) ? SPH_LAWS : 0u;
     traits |= problem_history(simulation->problem, history) > 0 ? SPH_HISTORY : 0u;
     return traits | (conduction_on(&sph->parameters) ? SPH_CONDUCTION : 0u);
 }

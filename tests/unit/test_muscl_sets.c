@@ -47,6 +47,9 @@ static struct running *begin_random(const char *text, struct dice *dice)
             p->velocity[i][axis] = dice_between(dice, -300.0, 300.0);
         }
     step(run, 2);
+    double *touch = particles_field(p, "touch");
+    for (int32_t i = 0; i < p->count; i++)
+        touch[i] = dice_between(dice, -1.0, 1.0) < 0.0 ? -1.0 : 1.0;
     prepare(run);
     return run;
 }
@@ -137,6 +140,10 @@ static const char space_strike[] = HEAD(
     "  right: {material: metal, box: " right ", velocity: [-2000 m/s, 0 m/s]}\n"
 static const char plane_gap[] = GAP("2", "{from: [0 mm, 0 mm], to: [8 mm, 12 mm]}",
                                     "{from: [8.1 mm, 0 mm], to: [16.1 mm, 12 mm]}");
+/* Under a contact law, on lattices that do not match: particles touch one after the other. */
+static const char law_gap[] = GAP("2", "{from: [0 mm, 0 mm], to: [8 mm, 12 mm]}",
+                                  "{from: [8.9 mm, 0.4 mm], to: [16.9 mm, 12.4 mm]}")
+    "contacts:\n  faces: {between: [left, right], shear: slip, tension: none}\n";
 
 static void threads_rows_and_a_resume_do_not_change_a_bit(void **state)
 {
@@ -148,7 +155,7 @@ static void threads_rows_and_a_resume_do_not_change_a_bit(void **state)
         {"rows of every step", 1, 1.0, "solver.sph.rebuild=1", false},
         {"resumed", 1, 1.0, NULL, true},
         {"resumed with 2 threads, large cells", 2, 1.7, NULL, true}};
-    const char *const texts[] = {plane_strike, space_strike, plane_gap};
+    const char *const texts[] = {plane_strike, space_strike, plane_gap, law_gap};
     for (size_t t = 0; t < COUNT_OF(texts); t++) {
         const uint64_t wanted = hash_after(texts[t], &plain, &plain, 20);
         for (size_t k = 0; k < COUNT_OF(variants); k++) {
@@ -189,12 +196,45 @@ static void expected_forces_packing_and_supports_belong_to_the_state(void **stat
     }
 }
 
+/* Bodies that are apart do not act on each other; what touches is saved; and momentum stays. */
+static void what_touches_belongs_to_the_state(void **state)
+{
+    (void)state;
+    struct running *run = begin_fresh(law_gap, &plain);
+    struct particles *p = particles_of(&run->simulation);
+    step(run, 1);
+    for (int32_t i = 0; i < p->count; i++)
+        assert_true(((double *)particles_field(p, "touch"))[i] == -1.0 &&
+                    fabs(p->velocity[i][0]) == 2000.0);
+    step(run, 5);
+    int touching = 0;
+    double *touch = particles_field(p, "touch");
+    for (int32_t i = 0; i < p->count; i++)
+        touching += touch[i] > 0.0;
+    assert_true(touching > 0 && touching < p->count);
+    const uint64_t before = particles_hash(p);
+    touch[0] = -touch[0];
+    assert_true(particles_hash(p) != before);
+    touch[0] = -touch[0];
+    step(run, 20);
+    double momentum[2] = {0.0, 0.0}, all = 0.0;
+    for (int32_t i = 0; i < p->count; i++) {
+        all += 2000.0 * p->mass[i];
+        for (int axis = 0; axis < 2; axis++)
+            momentum[axis] += p->mass[i] * p->velocity[i][axis];
+    }
+    assert_true(fabs(momentum[0]) < 1e-13 * all);
+    assert_true(fabs(momentum[1] - 0.5 * 10.0 / 2000.0 * all) < 1e-13 * all);
+    end(run);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_instruction_sets_give_the_same_bits),
         cmocka_unit_test(threads_rows_and_a_resume_do_not_change_a_bit),
         cmocka_unit_test(expected_forces_packing_and_supports_belong_to_the_state),
+        cmocka_unit_test(what_touches_belongs_to_the_state),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

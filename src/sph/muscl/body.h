@@ -88,13 +88,14 @@ BOLIDE_INLINE void put_vector(int dimension, double (*to)[LANES], int k, struct 
 
 /* One own particle against eight neighbours: where they are, how much they count, and the moments
  * of that. */
-BOLIDE_INLINE void find_places(struct muscl_kind kind, double smoothing, const double *own,
-                               const struct lanes *lanes, struct pairs *pairs,
+BOLIDE_INLINE void find_places(struct muscl_kind kind, bool with_law, double smoothing,
+                               const double *own, const struct lanes *lanes, struct pairs *pairs,
                                double (*sums)[LANES])
 {
     const int dimension = kind.dimension;
     const int d = record_diameter(dimension), v = record_volume(dimension);
     const int l = muscl_correction(kind), z = muscl_impedance(kind);
+    const int compression = muscl_compression(kind);
     const struct layout at = layout_of(kind);
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++) {
@@ -113,11 +114,13 @@ BOLIDE_INLINE void find_places(struct muscl_kind kind, double smoothing, const d
         put_vector(dimension, pairs->e, k, e);
         put_vector(dimension, pairs->n, k,
                    dimension == 1 ? e : vec3_scale(inverse * (r * two_h), lx));
-        double weight = lanes->field[v][k] * kernel_slope(r, inverse_h, dimension);
+        double volume = lanes->field[v][k];
+        if (with_law)
+            volume = muscl_meet(own[compression], lanes->field[compression][k]) ? volume : 0.0;
+        double weight = volume * kernel_slope(r, inverse_h, dimension);
         pairs->weight[k] = weight;
         if (dimension > 1)
-            pairs->value[k] =
-                lanes->field[v][k] * kernel_value(r, inverse_h, dimension) * square(inverse_h);
+            pairs->value[k] = volume * kernel_value(r, inverse_h, dimension) * square(inverse_h);
         pairs->area[k] = 0.5 * (ar * inverse_r);
         double near = smoothing * own[d] * inverse_h;
         pairs->near[k] = near;
@@ -373,7 +376,7 @@ BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const doub
     const int z = muscl_impedance(kind), q = muscl_shock_slope(kind);
     const int compression = muscl_compression(kind);
     const struct layout at = layout_of(kind);
-    const double per_own = dimension > 1 ? 1.0 / own[compression] : 1.0, own_m = own[m];
+    const double per_own = dimension > 1 ? 1.0 / fabs(own[compression]) : 1.0, own_m = own[m];
     const struct vec3 n = vector_from(dimension, &pairs->n[0][k], LANES);
     const struct solved_pair solved = solve_pair(kind, with_law, own, lanes, pairs, k);
     const struct pair_contact star = solved.star;
@@ -421,7 +424,7 @@ BOLIDE_INLINE void add_contact(struct muscl_kind kind, bool with_law, const doub
         const double counts = star.stress == 0.0 ? 1.0 - solved.limits.open : meets;
         const struct vec3 moved = vec3_add(vec3_scale(pairs->along_u[k], n),
                                            vec3_scale(1.0 - solved.limits.slip, solved.sliding));
-        const double ratio = per_own * lanes->field[compression][k], by = square(ratio);
+        const double ratio = per_own * fabs(lanes->field[compression][k]), by = square(ratio);
         const double like = counts * minimum(by, 1.0) / maximum(by, 1.0);
         const struct volume_pair volume = {
             .counts = counts,

@@ -86,7 +86,11 @@ static bool look_at(const struct sph *sph, const struct simulation *simulation,
     look->other = sph->record + (size_t)(entry & ENTRY_INDEX) * (size_t)muscl_stride(kind);
     look->x =
         vec3_sub(vector_from(dimension, look->other, 1), vector_from(dimension, look->own, 1));
+    const int compression = muscl_compression(kind);
     const double r = sqrt(vec3_dot(look->x, look->x)), both = look->own[d] + look->other[d];
+    if ((entry >> ENTRY_PART_SHIFT & PART_LAW) &&
+        !muscl_meet(look->own[compression], look->other[compression]))
+        return false;
     if (!(r > 0.0 && r < sph->parameters.smoothing * both))
         return false;
     look->e = vec3_scale(1.0 / r, look->x);

@@ -6,12 +6,12 @@
  * contacts are solved along n = a/|a|. And impedances are those of shocks. A neighbour is seen
  * through its record:
  *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_across] shock_slope material
- *   [compression packing closure] [elastic credit pull] [depth] L (as a stress)  dq/dx [dq/dy [dq/dz]]  q'
+ *   compression [packing closure] [elastic credit pull] [depth] L (as a stress)  dq/dx [dq/dy [dq/dz]]  q'
  * with stress as in record.h, velocity and stress half a step ahead, q' both of them a whole step,
  * and `shock_slope` rho times the slope of the shock adiabat (riemann/shock_slope.h). Z_across is
  * the shear impedance; of a material that has none, minus the fraction of compression in its
- * velocity gradient. In 2-D and 3-D `compression` is rho over that of the start, and `packing` what
- * volumes filled too much of the space a step before (muscl_limit_excess), and `closure` the
+ * velocity gradient. `compression` is rho over that of the start, in 1-D one, and negative where no
+ * body under a contact law touches the particle. In 2-D and 3-D `packing` is what volumes filled too much of the space a step before (muscl_limit_excess), and `closure` the
  * displacement that would have closed the areas of the particle (find_closure). Where there are
  * solids, `elastic` is 0 for fluids, what flows plastically and what has failed, and up to 1 for
  * other solids (record.c), `credit` the work that these may still give (find_credit), and `pull`
@@ -60,10 +60,9 @@ BOLIDE_INLINE double muscl_mark(int material, bool gas)
 }
 BOLIDE_INLINE double muscl_failed_mark(int material) { return material + MUSCL_FAILED; }
 BOLIDE_INLINE int muscl_compression(struct muscl_kind kind) { return muscl_shock_slope(kind) + 2; }
-BOLIDE_INLINE int muscl_packing(struct muscl_kind kind)
-{
-    return muscl_compression(kind) + (kind.dimension > 1);
-}
+/* Whether bodies under a contact law see each other at two particles of these compressions. */
+BOLIDE_INLINE bool muscl_meet(double first, double second) { return maximum(first, second) > 0.0; }
+BOLIDE_INLINE int muscl_packing(struct muscl_kind kind) { return muscl_compression(kind) + 1; }
 /* The excess of packing as it enters means over neighbours. At a surface, and in a lattice
  * compressed along one axis, it is far below zero, which must not count in full. */
 BOLIDE_INLINE double muscl_limit_excess(double excess)

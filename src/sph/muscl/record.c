@@ -239,8 +239,9 @@ BOLIDE_INLINE void pack_owned(const struct sph *sph, const struct simulation *si
     const double mark = has_failed(simulation, p, i) ? muscl_failed_mark(p->material[i])
                                                      : state->mark[p->material[i]];
     record[k++] = body_is_prescribed(simulation, p->body[i]) ? -2.0 - mark : mark;
+    const double compression = dimension > 1 ? p->density[i] / f->sph.density_start[i] : 1.0;
+    record[k++] = f->own.touch && f->own.touch[i] < 0.0 ? -compression : compression;
     if (dimension > 1) {
-        record[k++] = p->density[i] / f->sph.density_start[i];
         record[k++] = muscl_limit_excess(f->sph.packing[i][PACKING_EXCESS]);
     }
     if (dimension > 1) {

@@ -39,6 +39,10 @@ const struct field_row muscl_rows[] = {
      .when = SPH_SHEAR,
      .where = "method: muscl, solids in 2-D and 3-D",
      AT(credit)},
+    {.field = {"touch", NULL, "touches a body under a contact law", NUMBER_DOUBLE, 1, FIELD_STATE},
+     .when = SPH_LAWS,
+     .where = "method: muscl, contact laws",
+     AT(touch)},
     {.field = {"hoop_stress", NULL, "hoop stress half a step ahead", NUMBER_DOUBLE, 1,
                FIELD_PASSING},
      .when = SPH_AXISYMMETRIC,
@@ -94,6 +98,8 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
                   sph->parameters.smoothing, &sph->neighbours}};
     sph_sweep(sph, simulation, &records, &(struct sph_sweep){rates_of_block, &sweep, 1, "pairs"});
     sph->neighbours.prune = false;
+    if (fields->own.touch)
+        muscl_find_touch(sph, simulation, fields->own.touch);
     frozen_push(sph, simulation, fields);
     if (sph_axisymmetric(simulation))
         sph_add_hoop(sph, simulation, &fields->sph, fields->own.hoop_stress);
@@ -114,11 +120,24 @@ static struct ranked limit_of_particle(const struct sph *sph, const struct simul
     return limit;
 }
 
+/* Which bodies touch at the start: before the first sums, which say how full space was then. */
+static void start_touch(struct sph *sph, struct simulation *simulation,
+                        const struct muscl_fields *fields)
+{
+    const struct sph_records records = muscl_records(sph);
+    sph->ahead = 0.0;
+    muscl_pack(sph, simulation);
+    sph_records_finish(sph, simulation, &records);
+    muscl_find_touch(sph, simulation, fields->own.touch);
+}
+
 /* The step is chosen from the rates of the step before, as the records are. The first step has
  * none: its first sums only provide them. */
 static void prepare(struct sph *sph, struct simulation *simulation, struct limit *limit)
 {
     const struct muscl_fields fields = muscl_fields_of(sph, simulation);
+    if (simulation->step == 0 && fields.own.touch)
+        start_touch(sph, simulation, &fields);
     for (int round = simulation->step == 0 ? 0 : 1; round < 2; round++) {
         *limit = sph_smallest_limit(sph, simulation, limit_of_particle, &fields);
         simulation_end_phase(simulation, PHASE_SHARED, "time step");
