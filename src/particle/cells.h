@@ -12,7 +12,7 @@ enum { CELL_LEVELS = 32, CELL_LEVEL_ZERO = 8 };
 struct cell_point {
     double x, y, z, reach;
     uint32_t key, entry; /* its order in rows and what they keep of it; see row_kernel.h */
-    uint16_t group;      /* contact group */
+    uint16_t body;
 };
 
 /* Cells are the runs of points of one key. */

@@ -32,7 +32,7 @@ struct build {
 /* The points around one cell, and room for one row. */
 struct workspace {
     struct candidates near;
-    uint16_t *group;                   /* contact group of each */
+    uint16_t *body;                    /* of each */
     uint32_t *plain_key, *plain_entry; /* without the part of a contact law */
     uint32_t *key, *entry, *row;       /* kept of them */
     int64_t capacity;
@@ -52,11 +52,6 @@ static double largest_reach(const struct particles *p, struct reach reach, int t
     for (int32_t i = 0; i < p->count; i++)
         largest = maximum(largest, reach.smoothing * reach.diameter[i]);
     return ranks_maximum(p->ranks, largest);
-}
-
-static uint16_t group_of(const struct build *b, uint16_t body)
-{
-    return b->groups->groups > 1 ? b->groups->of_body[body] : 0;
 }
 
 static bool is_image(const struct build *b, int32_t i)
@@ -85,7 +80,7 @@ static struct cell_point point_of(const void *context, int32_t i)
                                (1.0 + b->n->skin) * reach,
                                part | b->rank[i],
                                part | (uint32_t)i,
-                               group_of(b, remote ? remote->body : p->body[from])};
+                               remote ? remote->body : p->body[from]};
 }
 
 static uint64_t id_of(const struct build *b, int32_t i)
@@ -146,7 +141,7 @@ static bool workspace_reserve(struct workspace *w, int64_t needed, int64_t kept)
               {&w->near.reach, sizeof *w->near.reach},
               {&w->near.key, sizeof *w->near.key},
               {&w->near.entry, sizeof *w->near.entry},
-              {&w->group, sizeof *w->group},
+              {&w->body, sizeof *w->body},
               {&w->plain_key, sizeof *w->plain_key},
               {&w->plain_entry, sizeof *w->plain_entry},
               {&w->key, sizeof *w->key},
@@ -175,27 +170,33 @@ static void collect_run(void *context, const struct cell_point *point, int32_t c
         near->y[to] = point[k].y;
         near->z[to] = point[k].z;
         near->reach[to] = point[k].reach;
-        w->group[to] = point[k].group;
+        w->body[to] = point[k].body;
         w->plain_key[to] = near->key[to] = point[k].key;
         w->plain_entry[to] = near->entry[to] = point[k].entry;
     }
     near->count += count;
 }
 
-/* What a contact law between two groups puts into keys and entries. */
-static uint32_t law_part(const struct contact_groups *groups, uint16_t group, uint16_t other)
+static bool tells_apart(const struct contact_groups *groups)
 {
-    if (groups->groups < 2)
-        return 0;
-    uint8_t law = groups->law[(size_t)group * (size_t)groups->groups + other];
+    return groups->groups > 1 || groups->cluster;
+}
+
+/* What a contact law between two bodies, or that they started apart, puts into keys and entries. */
+static uint32_t law_part(const struct contact_groups *groups, uint16_t body, uint16_t other)
+{
+    bool law = groups->cluster && groups->cluster[body] != groups->cluster[other];
+    if (groups->groups > 1)
+        law |= groups->law[(size_t)groups->of_body[body] * (size_t)groups->groups +
+                           groups->of_body[other]] != 0;
     return (uint32_t)(law ? PART_LAW : 0) << ENTRY_PART_SHIFT;
 }
 
-/* Marks those that points of GROUP meet under a law of their own. */
-static void mark_laws(const struct contact_groups *groups, struct workspace *w, uint16_t group)
+/* Marks those that points of BODY meet under a law of their own. */
+static void mark_laws(const struct contact_groups *groups, struct workspace *w, uint16_t body)
 {
     for (int32_t k = 0; k < w->near.count; k++) {
-        uint32_t part = law_part(groups, group, w->group[k]);
+        uint32_t part = law_part(groups, body, w->body[k]);
         w->near.key[k] = w->plain_key[k] | part;
         w->near.entry[k] = w->plain_entry[k] | part;
     }
@@ -249,14 +250,14 @@ static bool build_cell(struct build *b, struct workspace *w, int thread, int32_t
     cells_around(&b->cells, cell, collect_run, w);
     if (w->failed)
         return false;
-    int marked = -1; /* the group that laws are marked for */
+    int marked = -1; /* the body that laws are marked for */
     for (int32_t k = 0; k < c->count; k++, own++) {
         if (index_of(own) >= b->p->count)
             continue;
-        if (b->groups->groups > 1 && own->group != marked)
-            mark_laws(b->groups, w, (uint16_t)(marked = own->group));
+        if (tells_apart(b->groups) && own->body != marked)
+            mark_laws(b->groups, w, (uint16_t)(marked = own->body));
         const struct row_point point = {own->x, own->y, own->z, own->reach,
-                                        own->key | law_part(b->groups, own->group, own->group)};
+                                        own->key | law_part(b->groups, own->body, own->body)};
         int32_t count = row_find(&w->near, &point, w->key, w->entry, w->row);
         if (!store_row(&b->n->row[index_of(own)], &w->segment, thread, w->row, count))
             return false;
@@ -267,7 +268,7 @@ static bool build_cell(struct build *b, struct workspace *w, int thread, int32_t
 static void workspace_free(struct workspace *w)
 {
     void *const arrays[] = {w->near.x,      w->near.y,     w->near.z, w->near.reach,
-                            w->near.key,    w->near.entry, w->group,  w->plain_key,
+                            w->near.key,    w->near.entry, w->body,   w->plain_key,
                             w->plain_entry, w->key,        w->entry,  w->row};
     for (size_t k = 0; k < COUNT_OF(arrays); k++)
         free(arrays[k]);

@@ -21,15 +21,16 @@
 enum { ENTRY_PART_SHIFT = 30 };
 #define ENTRY_INDEX 0x3fffffffu
 enum entry_part {
-    PART_LAW = 1,   /* the two bodies have a contact law of their own */
+    PART_LAW = 1,   /* the two bodies have a contact law of their own, or started apart */
     PART_IMAGE = 2, /* the neighbour is an image behind a wall */
 };
 
-/* Which bodies meet under a law of their own. */
+/* Which bodies meet under a law of their own, or started apart. */
 struct contact_groups {
     const uint8_t *of_body; /* group of each body */
     const uint8_t *law;     /* groups x groups, zero where there is none */
     int groups;
+    const uint16_t *cluster; /* of each body: those in contact at the start; NULL: all in one */
 };
 
 /* Where a row stands: entries row[begin] .. row[begin + count - 1] of a segment. */

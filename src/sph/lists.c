@@ -34,10 +34,29 @@ static bool recuts(const struct sph *sph, const struct simulation *simulation)
 }
 
 /* Supports are found again after particles have moved in the store. */
-static struct reach reach_of(const struct sph *sph, const struct simulation *simulation)
+struct reach sph_reach(const struct sph *sph, const struct simulation *simulation)
 {
     const struct sph_fields f = sph_fields_of(sph, simulation);
     return (struct reach){f.support ? f.support : f.diameter, sph->parameters.smoothing};
+}
+
+/* The clusters of bodies, where there are several. */
+static const uint16_t *clusters(const struct sph *sph)
+{
+    for (int b = 1; b < sph->bodies && sph->cluster; b++)
+        if (sph->cluster[b] != sph->cluster[0])
+            return sph->cluster;
+    return NULL;
+}
+
+struct error *sph_rebuild_lists(struct sph *sph, struct simulation *simulation)
+{
+    sph->groups.cluster = clusters(sph);
+    TRY(neighbours_build(&sph->neighbours, sph->particles, sph_reach(sph, simulation),
+                         &simulation->problem->images, &sph->groups, simulation->threads));
+    sph->steps_since_build = 0;
+    simulation_end_phase(simulation, PHASE_SHARED, "neighbour search");
+    return ranks_agree(simulation->ranks, reserve_records(sph));
 }
 
 struct error *sph_refresh_lists(struct sph *sph, struct simulation *simulation, bool *rebuilt)
@@ -47,15 +66,11 @@ struct error *sph_refresh_lists(struct sph *sph, struct simulation *simulation, 
     bool recut = recuts(sph, simulation);
     *rebuilt =
         (most && sph->steps_since_build >= most) || recut ||
-        !neighbours_hold(&sph->neighbours, p, reach_of(sph, simulation), simulation->threads);
+        !neighbours_hold(&sph->neighbours, p, sph_reach(sph, simulation), simulation->threads);
     if (!*rebuilt) {
         simulation_end_phase(simulation, PHASE_SHARED, "neighbour search");
         return NULL;
     }
     TRY(particles_distribute(p, recut));
-    TRY(neighbours_build(&sph->neighbours, p, reach_of(sph, simulation),
-                         &simulation->problem->images, &sph->groups, simulation->threads));
-    sph->steps_since_build = 0;
-    simulation_end_phase(simulation, PHASE_SHARED, "neighbour search");
-    return ranks_agree(simulation->ranks, reserve_records(sph));
+    return sph_rebuild_lists(sph, simulation);
 }

@@ -47,23 +47,27 @@ struct laws {
     const uint16_t *body; /* of owned particles */
 };
 
-/* The laws between the body of particle I and the eight neighbours of LIST: which cut shear, which
- * tension. */
-BOLIDE_INLINE void stage_laws(const struct laws *laws, int32_t i, const uint32_t *list,
-                              double *slip, double *open)
+/* The law between the bodies of particle I and record J, as bits. */
+BOLIDE_INLINE unsigned laws_between(const struct laws *laws, int32_t i, int32_t j)
 {
     const struct neighbours *n = laws->neighbours;
     const struct contact_groups *groups = laws->groups;
     const uint8_t *law =
         groups->law + (size_t)groups->of_body[laws->body[i]] * (size_t)groups->groups;
+    if (j >= n->count && j < n->count + n->ghosts.count)
+        j = n->ghosts.source[j - n->count];
+    return j < n->count ? law[groups->of_body[laws->body[j]]]
+           : j < n->count + n->ghosts.remotes
+               ? law[groups->of_body[n->ghosts.remote[j - n->count].body]]
+               : 0;
+}
+
+/* The same of the eight neighbours of LIST: which cut shear, which tension. */
+BOLIDE_INLINE void stage_laws(const struct laws *laws, int32_t i, const uint32_t *list,
+                              double *slip, double *open)
+{
     for (int k = 0; k < LANES; k++) {
-        int32_t j = (int32_t)list[k];
-        if (j >= n->count && j < n->count + n->ghosts.count)
-            j = n->ghosts.source[j - n->count];
-        unsigned bits = j < n->count ? law[groups->of_body[laws->body[j]]]
-                        : j < n->count + n->ghosts.remotes
-                            ? law[groups->of_body[n->ghosts.remote[j - n->count].body]]
-                            : 0;
+        const unsigned bits = laws_between(laws, i, (int32_t)list[k]);
         slip[k] = bits & LAW_SLIP ? 1.0 : 0.0;
         open[k] = bits & LAW_NO_TENSION ? 1.0 : 0.0;
     }

@@ -37,7 +37,7 @@ enum sph_trait {
     SPH_ALL_RECONSTRUCTED = 1 << 16,
     SPH_PERIODIC = 1 << 17, /* an axis is periodic */
     SPH_BREAKS = 1 << 18,   /* contacts break */
-    SPH_LAWS = 1 << 19,     /* contact laws act between bodies */
+    SPH_BODIES = 1 << 19,   /* there are several bodies */
 };
 
 /* Components that depend on the run: of a symmetric tensor and of a gradient of velocity in its
@@ -110,6 +110,7 @@ struct sph_scheme {
     double courant, courant_limit; /* the default, and the largest K that is stable */
     bool conducts;                 /* heat may be conducted beside it */
     bool breaks;                   /* contacts break where the material fails */
+    bool touches;                  /* bodies that start apart act when they touch */
     size_t state_size;             /* bytes of its own state, zeroed before create */
     const struct field_row *rows;  /* its own fields; sph_rows has those of all schemes */
 
@@ -147,6 +148,8 @@ struct sph {
     struct particles *particles;
     struct neighbours neighbours;
     struct contact_groups groups;
+    int bodies;
+    uint16_t *cluster; /* of each body, from 0 on; NULL: the scheme does not ask */
     int64_t steps_since_build;
     /* Records of owned particles, of ghosts, and one that fills up lanes, `stride` doubles each;
      * where `places`, position and diameter once more, closer together (lanes.h). */
@@ -228,6 +231,22 @@ struct error *sph_find_slopes(const struct simulation *simulation, double *slope
  * distributes and sorts the particles when the lists have expired. *REBUILT tells whether they had.
  */
 struct error *sph_refresh_lists(struct sph *sph, struct simulation *simulation, bool *rebuilt);
+/* The same without a question, and without moving particles. */
+struct error *sph_rebuild_lists(struct sph *sph, struct simulation *simulation);
+struct reach sph_reach(const struct sph *sph, const struct simulation *simulation);
+
+/* Whether there are pairs that PART_LAW marks. */
+BOLIDE_INLINE bool sph_parts_bodies(const struct sph *sph)
+{
+    return sph->groups.groups > 1 || sph->groups.cluster;
+}
+
+/* clusters.c. Collective, before the first step, with lists: which bodies are in contact; makes the
+ * lists again where some are apart. */
+struct error *sph_find_clusters(struct sph *sph, struct simulation *simulation);
+
+/* How near particles of bodies in contact are at the start: in their mean diameter. */
+#define SPH_START_CONTACT 1.5
 
 /* The skin of compressed lists. There are none in 1-D, where lists are short, nor where HEUN's step
  * moves particles between two walks or nothing moves. */

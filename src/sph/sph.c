@@ -98,7 +98,7 @@ static unsigned traits_of(const struct sph *sph, const struct simulation *simula
     traits |= simulation->problem->dimension > 1 ? SPH_PLANE : 0u;
     traits |= strong && simulation->problem->dimension > 1 ? SPH_SHEAR : 0u;
     traits |= fails && sph->scheme->breaks ? SPH_BREAKS : 0u;
-    traits |= sph_has_laws(simulation) ? SPH_LAWS : 0u;
+    traits |= simulation->problem->input->bodies.count > 1 ? SPH_BODIES : 0u;
     traits |= problem_history(simulation->problem, history) > 0 ? SPH_HISTORY : 0u;
     return traits | (conduction_on(&sph->parameters) ? SPH_CONDUCTION : 0u);
 }
@@ -143,7 +143,13 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
     sph->neighbours.near_skin = sph_near_skin(&sph->parameters, sph->traits);
     sph->groups =
         (struct contact_groups){simulation->problem->group_of_body, &simulation->problem->law[0][0],
-                                sph_has_laws(simulation) ? CONTACT_GROUPS : 1};
+                                sph_has_laws(simulation) ? CONTACT_GROUPS : 1, NULL};
+    sph->bodies = simulation->problem->input->bodies.count;
+    if (sph->scheme->touches && sph_has(sph, SPH_BODIES)) {
+        sph->cluster = memory_allocate((size_t)sph->bodies * sizeof *sph->cluster);
+        if (!sph->cluster)
+            return out_of_memory();
+    }
     sph->state = calloc(1, sph->scheme->state_size);
     if (!sph->state)
         return out_of_memory();
@@ -174,6 +180,8 @@ static struct error *sph_prepare(void *solver, struct simulation *simulation, st
     bool rebuilt;
     stop_bodies(simulation, sph->particles);
     TRY(sph_refresh_lists(sph, simulation, &rebuilt));
+    if (simulation->step == 0 && sph->cluster)
+        TRY(sph_find_clusters(sph, simulation));
     if (rebuilt && (sph->scheme->rebuilt || sph_has(sph, SPH_CONDUCTION))) {
         struct error *error = sph_has(sph, SPH_CONDUCTION) ? conduction_reserve(sph) : NULL;
         if (!error && sph->scheme->rebuilt)
@@ -204,9 +212,10 @@ static struct error *sph_advance(void *solver, struct simulation *simulation, do
 
 static struct error *sph_state(void *solver, struct visitor *visitor)
 {
-    (void)solver;
-    (void)visitor;
-    return NULL;
+    struct sph *sph = solver;
+    return sph->cluster
+               ? visitor->visit(visitor, "sph/cluster", NUMBER_UINT16, sph->cluster, sph->bodies, 1)
+               : NULL;
 }
 
 static void sph_destroy(void *solver)
@@ -219,6 +228,7 @@ static void sph_destroy(void *solver)
         sph->scheme->destroy(sph);
     free(sph->state);
     free(sph->place);
+    free(sph->cluster);
     particles_drop(sph->particles);
 }
 

@@ -32,7 +32,7 @@ static const uint8_t scene_no_law[1] = {0};
 
 static inline const struct contact_groups *scene_no_groups(void)
 {
-    static const struct contact_groups none = {scene_one_group, scene_no_law, 1};
+    static const struct contact_groups none = {scene_one_group, scene_no_law, 1, NULL};
     return &none;
 }
 

@@ -140,10 +140,14 @@ static const char space_strike[] = HEAD(
     "  right: {material: metal, box: " right ", velocity: [-2000 m/s, 0 m/s]}\n"
 static const char plane_gap[] = GAP("2", "{from: [0 mm, 0 mm], to: [8 mm, 12 mm]}",
                                     "{from: [8.1 mm, 0 mm], to: [16.1 mm, 12 mm]}");
-/* Under a contact law, on lattices that do not match: particles touch one after the other. */
-static const char law_gap[] = GAP("2", "{from: [0 mm, 0 mm], to: [8 mm, 12 mm]}",
-                                  "{from: [8.9 mm, 0.4 mm], to: [16.9 mm, 12.4 mm]}")
-    "contacts:\n  faces: {between: [left, right], shear: slip, tension: none}\n";
+/* On lattices that do not match: particles touch one after the other. Without a contact law, and
+ * under one. */
+#define APART_BODIES                                    \
+    GAP("2", "{from: [0 mm, 0 mm], to: [8 mm, 12 mm]}", \
+        "{from: [8.9 mm, 0.4 mm], to: [16.9 mm, 12.4 mm]}")
+static const char apart_gap[] = APART_BODIES;
+static const char law_gap[] =
+    APART_BODIES "contacts:\n  faces: {between: [left, right], shear: slip, tension: none}\n";
 
 static void threads_rows_and_a_resume_do_not_change_a_bit(void **state)
 {
@@ -155,7 +159,7 @@ static void threads_rows_and_a_resume_do_not_change_a_bit(void **state)
         {"rows of every step", 1, 1.0, "solver.sph.rebuild=1", false},
         {"resumed", 1, 1.0, NULL, true},
         {"resumed with 2 threads, large cells", 2, 1.7, NULL, true}};
-    const char *const texts[] = {plane_strike, space_strike, plane_gap, law_gap};
+    const char *const texts[] = {plane_strike, space_strike, plane_gap, law_gap, apart_gap};
     for (size_t t = 0; t < COUNT_OF(texts); t++) {
         const uint64_t wanted = hash_after(texts[t], &plain, &plain, 20);
         for (size_t k = 0; k < COUNT_OF(variants); k++) {
@@ -197,10 +201,9 @@ static void expected_forces_packing_and_supports_belong_to_the_state(void **stat
 }
 
 /* Bodies that are apart do not act on each other; what touches is saved; and momentum stays. */
-static void what_touches_belongs_to_the_state(void **state)
+static void check_touch(const char *text)
 {
-    (void)state;
-    struct running *run = begin_fresh(law_gap, &plain);
+    struct running *run = begin_fresh(text, &plain);
     struct particles *p = particles_of(&run->simulation);
     step(run, 1);
     for (int32_t i = 0; i < p->count; i++)
@@ -228,6 +231,37 @@ static void what_touches_belongs_to_the_state(void **state)
     end(run);
 }
 
+static void what_touches_belongs_to_the_state(void **state)
+{
+    (void)state;
+    check_touch(law_gap);
+    check_touch(apart_gap);
+}
+
+/* A chain of bodies, the last but one across a periodic face; and one that is apart. */
+static void bodies_are_apart_unless_others_connect_them(void **state)
+{
+    (void)state;
+    static const char text[] =
+        HEAD("2") "materials:\n" METAL "bodies:\n"
+                  "  first: {material: metal, box: {from: [4 mm, 0 mm], to: [8 mm, 4 mm]}}\n"
+                  "  apart: {material: metal, box: {from: [14 mm, 0 mm], to: [18 mm, 4 mm]}}\n"
+                  "  layer: {material: metal, box: {from: [3 mm, 0 mm], to: [4 mm, 4 mm]}}\n"
+                  "  second: {material: metal, box: {from: [0 mm, 0 mm], to: [3 mm, 4 mm]}}\n"
+                  "  across: {material: metal, box: {from: [20 mm, 0 mm], to: [24 mm, 4 mm]}}\n"
+                  "boundaries: {x: {kind: periodic, axis: x}}\n"
+                  "domain: {low: [0 mm, 0 mm], high: [24 mm, 4 mm]}\n";
+    struct running *run = begin_fresh(text, &plain);
+    step(run, 1);
+    const uint16_t wanted[] = {0, 1, 0, 0, 0};
+    assert_memory_equal(run->sph.cluster, wanted, sizeof wanted);
+    run = resume(run, text, &plain);
+    step(run, 1);
+    assert_memory_equal(run->sph.cluster, wanted, sizeof wanted);
+    assert_non_null(run->sph.groups.cluster);
+    end(run);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -235,6 +269,7 @@ int main(void)
         cmocka_unit_test(threads_rows_and_a_resume_do_not_change_a_bit),
         cmocka_unit_test(expected_forces_packing_and_supports_belong_to_the_state),
         cmocka_unit_test(what_touches_belongs_to_the_state),
+        cmocka_unit_test(bodies_are_apart_unless_others_connect_them),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

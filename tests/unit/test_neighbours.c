@@ -81,7 +81,7 @@ static void rows_know_which_bodies_meet_under_a_law(void **state)
     struct dice dice = {4};
     struct scene scene;
     scene_create(&scene, 2, 400, 0.5, 0.15);
-    scene.groups = (struct contact_groups){scene_group_of_body, scene_law, SCENE_BODIES};
+    scene.groups = (struct contact_groups){scene_group_of_body, scene_law, SCENE_BODIES, NULL};
     scene.mirrors.low[0] = -2.5;
     scene.mirrors.high[1] = 2.5;
     scatter(&scene, 5.0, 0.1, 4.0, &dice);

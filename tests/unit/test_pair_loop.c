@@ -278,7 +278,7 @@ static void two_particles(struct trial *t, struct pair_kind kind, const double x
         t->scene.particles.position[1][axis] = x[axis];
     for (int32_t i = 0; i < 2; i++)
         scene_diameter(&t->scene)[i] = 1.0;
-    t->scene.groups = (struct contact_groups){scene_group_of_body, scene_law, SCENE_BODIES};
+    t->scene.groups = (struct contact_groups){scene_group_of_body, scene_law, SCENE_BODIES, NULL};
     t->scene.particles.id[0] = 1; /* both solid, where the kind has shear */
     t->scene.particles.id[1] = 2;
     random_state(&t->scene, kind, &dice);

@@ -208,7 +208,7 @@ static inline void trial_create(struct trial *t, struct pair_kind kind, int coun
             scene->mirrors.high[axis] = axis == 1 ? (double)NAN : size + 0.1;
         }
     if (with & LAWS)
-        scene->groups = (struct contact_groups){scene_group_of_body, scene_law, SCENE_BODIES};
+        scene->groups = (struct contact_groups){scene_group_of_body, scene_law, SCENE_BODIES, NULL};
     random_state(scene, kind, &dice);
     trial_prepare(t, kind);
 }

@@ -6,12 +6,14 @@
  * contacts are solved along n = a/|a|. And impedances are those of shocks. A neighbour is seen
  * through its record:
  *   x [y [z]]  diameter  volume  u [v [w]]  stress  Z_long [Z_across] shock_slope material
- *   compression [packing closure] [elastic credit pull] [depth] L (as a stress)  dq/dx [dq/dy [dq/dz]]  q'
+ *   compression [packing closure] [elastic credit pull] [depth] L (as a stress)
+ *   dq/dx [dq/dy [dq/dz]]  q'
  * with stress as in record.h, velocity and stress half a step ahead, q' both of them a whole step,
  * and `shock_slope` rho times the slope of the shock adiabat (riemann/shock_slope.h). Z_across is
  * the shear impedance; of a material that has none, minus the fraction of compression in its
- * velocity gradient. `compression` is rho over that of the start, in 1-D one, and negative where no
- * body under a contact law touches the particle. In 2-D and 3-D `packing` is what volumes filled too much of the space a step before (muscl_limit_excess), and `closure` the
+ * velocity gradient. `compression` is rho over that of the start, in 1-D one; negative where the
+ * particle touches no body that it may be apart from (touch.c). In 2-D and 3-D `packing` is what
+ * volumes filled too much of the space a step before (muscl_limit_excess), and `closure` the
  * displacement that would have closed the areas of the particle (find_closure). Where there are
  * solids, `elastic` is 0 for fluids, what flows plastically and what has failed, and up to 1 for
  * other solids (record.c), `credit` the work that these may still give (find_credit), and `pull`

@@ -35,8 +35,8 @@ struct muscl_own_fields {
     double (*force)[3];
     double (*closure)[3];  /* NULL in 1-D */
     double *heat, *credit; /* NULL without solids, and in 1-D */
-    double *touch;       /* 1: touches a body under a contact law, -1: touches none, 0: fresh; NULL
-                            * without laws */
+    double *touch; /* 1: touches a body that it may be apart from, -1: touches none, 0: fresh, or
+                      there are none; NULL for a single body */
     double *hoop_stress; /* NULL but in axisymmetry */
 };
 struct muscl_fields {
@@ -76,8 +76,10 @@ BOLIDE_INLINE double muscl_divergence(const struct simulation *simulation,
 struct sph_records muscl_records(const struct sph *sph);
 void muscl_pack(struct sph *sph, const struct simulation *simulation);
 
-/* touch.c. Whether particles touch bodies under a contact law, by the records. */
-void muscl_find_touch(const struct sph *sph, const struct simulation *simulation, double *touch);
+/* touch.c. Whether particles will touch bodies that they may be apart from after a step of DT, by
+ * the records. */
+void muscl_find_touch(const struct sph *sph, const struct simulation *simulation, double dt,
+                      double *touch);
 
 /* frozen.c. Finds the particles next to transmitting bodies after lists were rebuilt; adds to their
  * sums what these bodies push, and removes the rates of the bodies; books that for a step of DT. */

@@ -39,9 +39,10 @@ const struct field_row muscl_rows[] = {
      .when = SPH_SHEAR,
      .where = "method: muscl, solids in 2-D and 3-D",
      AT(credit)},
-    {.field = {"touch", NULL, "touches a body under a contact law", NUMBER_DOUBLE, 1, FIELD_STATE},
-     .when = SPH_LAWS,
-     .where = "method: muscl, contact laws",
+    {.field = {"touch", NULL, "touches a body that it may be apart from", NUMBER_DOUBLE, 1,
+               FIELD_STATE},
+     .when = SPH_BODIES,
+     .where = "method: muscl, several bodies",
      AT(touch)},
     {.field = {"hoop_stress", NULL, "hoop stress half a step ahead", NUMBER_DOUBLE, 1,
                FIELD_PASSING},
@@ -98,8 +99,8 @@ static void sum_pairs(struct sph *sph, struct simulation *simulation,
                   sph->parameters.smoothing, &sph->neighbours}};
     sph_sweep(sph, simulation, &records, &(struct sph_sweep){rates_of_block, &sweep, 1, "pairs"});
     sph->neighbours.prune = false;
-    if (fields->own.touch)
-        muscl_find_touch(sph, simulation, fields->own.touch);
+    if (sph_parts_bodies(sph))
+        muscl_find_touch(sph, simulation, step, fields->own.touch);
     frozen_push(sph, simulation, fields);
     if (sph_axisymmetric(simulation))
         sph_add_hoop(sph, simulation, &fields->sph, fields->own.hoop_stress);
@@ -128,7 +129,7 @@ static void start_touch(struct sph *sph, struct simulation *simulation,
     sph->ahead = 0.0;
     muscl_pack(sph, simulation);
     sph_records_finish(sph, simulation, &records);
-    muscl_find_touch(sph, simulation, fields->own.touch);
+    muscl_find_touch(sph, simulation, 0.0, fields->own.touch);
 }
 
 /* The step is chosen from the rates of the step before, as the records are. The first step has
@@ -136,7 +137,7 @@ static void start_touch(struct sph *sph, struct simulation *simulation,
 static void prepare(struct sph *sph, struct simulation *simulation, struct limit *limit)
 {
     const struct muscl_fields fields = muscl_fields_of(sph, simulation);
-    if (simulation->step == 0 && fields.own.touch)
+    if (simulation->step == 0 && sph_parts_bodies(sph))
         start_touch(sph, simulation, &fields);
     for (int round = simulation->step == 0 ? 0 : 1; round < 2; round++) {
         *limit = sph_smallest_limit(sph, simulation, limit_of_particle, &fields);
@@ -245,6 +246,7 @@ const struct sph_scheme muscl_scheme = {.name = "muscl",
                                         .courant = 0.4,
                                         .courant_limit = 0.45,
                                         .conducts = true,
+                                        .touches = true,
                                         .state_size = sizeof(struct muscl_state),
                                         .rows = muscl_rows,
                                         .traits = traits_of,

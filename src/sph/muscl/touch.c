@@ -1,62 +1,99 @@
-/* When bodies under a contact law touch. Across a gap the contact of a pair would be a dashpot
- * without a spring: it takes the speed of slow bodies before their surfaces meet. So particles of
- * which neither touches the other body do not see each other (find_places). A particle touches when
- * a neighbour there is as near as on a lattice, or when the neighbours there fill what its own body
- * leaves open, and it goes on touching as long as one of them is within its support. The flags
- * follow from the records of a step and count from the next step on. */
+/* When bodies that may be apart touch: those under a contact law, and those that started apart.
+ * Across a gap the contact of a pair would be a dashpot without a spring: it takes the speed of
+ * slow bodies before their surfaces meet. So particles of which neither touches the other body do
+ * not see each other (find_places). A particle touches when a neighbour there is as near as on a
+ * lattice, or when the neighbours there fill what its own body leaves open, and it goes on touching
+ * as long as one of them is within its support. The flags follow from the records of a step and
+ * count in the next one, so the places are those of the next one, too. */
 #include "sph/kernel.h"
 #include "sph/lanes.h"
 #include "sph/muscl/muscl.h"
 #include "sph/record.h"
 
-/* What the neighbours of a particle say: the fractions of the space around it that neighbours
- * without and with a law fill, its own volume included; the largest ratio of mean diameter to
- * distance among those with a law. */
-struct nearness {
-    double own, law, closest;
+/* D/r of particles that touch, with a hundredth of room, as for what is filled: all particles of a
+ * face that meets another one must touch at once. */
+static const double contact = 1.01, full = 0.97;
+/* More than this of the space around a particle that its own body fills: it is inside. */
+static const double inside = 0.93;
+
+/* Records, and the step after which particles are looked at; zero before the first. */
+struct touching {
+    const struct sph *sph;
+    const struct simulation *simulation;
+    struct muscl_kind kind;
+    double dt;
 };
 
-/* The volume of a neighbour times the kernel at its distance *R; zero outside the support. */
-static double filled_by(const struct sph *sph, int dimension, const double *own,
-                        const double *other, double *r)
+/* What the neighbours of a particle say: whether there are any of other bodies, how near the
+ * nearest is, 1 in contact; the fractions of the space around it that those of its own body, itself
+ * included, and of others fill. */
+struct nearness {
+    bool any;
+    double closest, own, other;
+};
+
+/* What of the space around a particle a neighbour at the distance *R fills; false where it is
+ * outside the support. */
+static bool is_beside(const struct touching *touching, const double *own, const double *other,
+                      double *r, double *filled)
 {
-    const int d = record_diameter(dimension);
+    const int dimension = touching->kind.dimension;
+    const int d = record_diameter(dimension), u = record_velocity(dimension);
     const struct vec3 x =
         vec3_sub(vector_from(dimension, other, 1), vector_from(dimension, own, 1));
-    const double both = sph->parameters.smoothing * (own[d] + other[d]), r2 = vec3_dot(x, x);
-    *r = sqrt(r2);
-    return r2 < square(both)
-               ? other[record_volume(dimension)] * kernel_value(*r, 2.0 / both, dimension)
-               : 0.0;
+    const struct vec3 du =
+        vec3_sub(vector_from(dimension, other + u, 1), vector_from(dimension, own + u, 1));
+    const struct vec3 next = vec3_add(x, vec3_scale(touching->dt, du));
+    const double both = touching->sph->parameters.smoothing * (own[d] + other[d]);
+    *r = sqrt(vec3_dot(next, next));
+    *filled =
+        other[record_volume(dimension)] * kernel_value(minimum(*r, both), 2.0 / both, dimension);
+    return vec3_dot(x, x) < square(both);
 }
 
-/* A walk over the entries of a row that a law marks (LAW) or does not. */
-static void look_around(const struct sph *sph, struct muscl_kind kind, int32_t i, bool law,
+/* At the start bodies that may not part are in contact across half a diameter. */
+static double contact_of(const struct touching *touching, int32_t i, int32_t j)
+{
+    const struct sph *sph = touching->sph;
+    const struct laws laws = {&sph->neighbours, &sph->groups, sph->particles->body};
+    return touching->simulation->step > 0 || touching->dt > 0.0 ||
+                   laws_between(&laws, i, j) & LAW_NO_TENSION
+               ? contact
+               : SPH_START_CONTACT;
+}
+
+/* A walk over the neighbours of the particle's own body (OTHERS false), or those of others. */
+static void look_around(const struct touching *touching, int32_t i, bool others,
                         struct nearness *near)
 {
+    const struct sph *sph = touching->sph;
     const struct neighbours *n = &sph->neighbours;
-    const int dimension = kind.dimension, v = record_volume(dimension);
-    const size_t stride = (size_t)muscl_stride(kind);
+    const int v = record_volume(touching->kind.dimension);
+    const size_t stride = (size_t)muscl_stride(touching->kind);
     const double *own = sph->record + (size_t)i * stride;
-    const double diameter = diameter_of_volume(own[v], dimension);
+    const double diameter = diameter_of_volume(own[v], touching->kind.dimension);
     int count = (int)n->row[i].count;
     /* near rows are found by the pair sums */
     const uint32_t *entry = n->prune ? neighbours_row(n, i) : neighbours_walk(n, i, &count);
     for (int q = 0; q < count; q++) {
-        if ((entry[q] >> ENTRY_PART_SHIFT & PART_LAW) != (law ? PART_LAW : 0))
+        const int32_t j = (int32_t)(entry[q] & ENTRY_INDEX);
+        const double *other = sph->record + (size_t)j * stride;
+        double r, filled;
+        if ((entry[q] >> ENTRY_PART_SHIFT & PART_LAW) != (others ? PART_LAW : 0) ||
+            !is_beside(touching, own, other, &r, &filled))
             continue;
-        double r;
-        const double *other = sph->record + (size_t)(entry[q] & ENTRY_INDEX) * stride;
-        const double filled = filled_by(sph, dimension, own, other, &r);
-        if (law && filled > 0.0) {
-            const double mean = 0.5 * (diameter + diameter_of_volume(other[v], dimension));
-            near->closest = maximum(near->closest, mean / maximum(r, 1e-40));
+        *(others ? &near->other : &near->own) += filled;
+        if (others) {
+            const double mean =
+                0.5 * (diameter + diameter_of_volume(other[v], touching->kind.dimension));
+            near->any = true;
+            near->closest =
+                maximum(near->closest, contact_of(touching, i, j) * mean / maximum(r, 1e-40));
         }
-        *(law ? &near->law : &near->own) += filled;
     }
 }
 
-static bool has_laws(const struct neighbours *n, int32_t i)
+static bool has_others(const struct neighbours *n, int32_t i)
 {
     const uint32_t *entry = neighbours_row(n, i);
     const int count = (int)n->row[i].count, images = lanes_part(entry, 0, count, 0);
@@ -67,35 +104,33 @@ static bool has_laws(const struct neighbours *n, int32_t i)
 }
 
 /* Whether a particle that WAS as the field `touch` has it touches another body. */
-static bool touches(const struct sph *sph, struct muscl_kind kind, int32_t i, double was)
+static bool touches(const struct touching *touching, int32_t i, double was)
 {
-    /* a thousandth, so that lattices that start in contact touch */
-    const double contact = 1.001, at_start = 1.5, full = 0.95, surface = 0.93;
-    const int dimension = kind.dimension;
-    const double *own = sph->record + (size_t)i * (size_t)muscl_stride(kind);
-    struct nearness near = {0.0, 0.0, 0.0};
-    if (!has_laws(&sph->neighbours, i))
+    const struct sph *sph = touching->sph;
+    const int dimension = touching->kind.dimension;
+    const double *own = sph->record + (size_t)i * (size_t)muscl_stride(touching->kind);
+    struct nearness near = {false, 0.0, 0.0, 0.0};
+    if (!has_others(&sph->neighbours, i))
         return false;
-    look_around(sph, kind, i, true, &near);
-    if (near.closest == 0.0 || was > 0.0)
-        return near.closest > 0.0;
-    if (near.closest * (was == 0.0 ? at_start : contact) > 1.0)
-        return true;
+    look_around(touching, i, true, &near);
+    if (!near.any || was > 0.0 || near.closest > 1.0)
+        return near.any;
     if (dimension == 1)
         return false;
     const double inverse_h = 1.0 / (sph->parameters.smoothing * own[record_diameter(dimension)]);
     near.own = own[record_volume(dimension)] * kernel_value(0.0, inverse_h, dimension);
-    look_around(sph, kind, i, false, &near);
-    return near.own < surface && near.law > full * (1.0 - near.own);
+    look_around(touching, i, false, &near);
+    return near.own < inside && near.other > full * (1.0 - near.own);
 }
 
-void muscl_find_touch(const struct sph *sph, const struct simulation *simulation, double *touch)
+void muscl_find_touch(const struct sph *sph, const struct simulation *simulation, double dt,
+                      double *touch)
 {
-    const struct muscl_kind kind = muscl_kind_of(sph);
+    const struct touching touching = {sph, simulation, muscl_kind_of(sph), dt};
 #pragma omp parallel for schedule(dynamic) num_threads(simulation->threads)
     for (int32_t b = 0; b < sph->particles->blocks; b++) {
         const struct block *block = &sph->particles->block[b];
         for (int32_t i = block->first; i < block->first + block->count; i++)
-            touch[i] = touches(sph, kind, i, touch[i]) ? 1.0 : -1.0;
+            touch[i] = touches(&touching, i, touch[i]) ? 1.0 : -1.0;
     }
 }
