@@ -19,9 +19,10 @@ const struct parameter case_contact_table[] = {
               "whose surface gives the contact normal: that of the first body (the stiffer or the "
               "convex one), of the second, or the mean of both (solver mpm)",
               .names = normal_names),
-    PARAMETER(CHOICE, struct contact_input, touch, "nodes",
-              "where contact begins for bodies that may separate; nodes: where they share nodes, a "
-              "cell before they touch; surfaces: where their surfaces touch (solver mpm)",
+    PARAMETER(CHOICE, struct contact_input, touch, OPTIONAL,
+              "where contact begins; surfaces: where surfaces touch, for bodies that may separate; "
+              "nodes: where bodies share nodes, a cell before they touch (solver mpm); default: "
+              "surfaces with `tension: none`, else nodes",
               .names = touch_names),
     PARAMETER_END,
 };

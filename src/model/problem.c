@@ -72,12 +72,15 @@ static bool laws_of(struct problem *problem, const struct contact_input *contact
                                  [NORMAL_SECOND] = NORMAL_FIRST};
     const int bits = (contact->shear == SHEAR_SLIP ? LAW_SLIP : 0) |
                      (contact->tension == TENSION_NONE ? LAW_NO_TENSION : 0);
+    const int touch = contact->touch >= 0                ? contact->touch
+                      : contact->tension == TENSION_NONE ? TOUCH_SURFACES
+                                                         : TOUCH_NODES;
     bool room = true;
     for (int side = 0; side < 2; side++) {
         const int normal = side ? turned[contact->normal] : contact->normal;
         const int surface = surface_of(
             problem, (struct contact_surface){contact->friction, bits ? normal : NORMAL_MEAN,
-                                              bits ? contact->touch : TOUCH_NODES});
+                                              bits ? touch : TOUCH_NODES});
         law[side] = bits | LAW_SURFACE * surface;
         room &= surface < CONTACT_SURFACES;
     }

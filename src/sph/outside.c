@@ -13,7 +13,7 @@ static void refuse_contact(struct findings *findings, int c)
     const struct simulation_case *input = findings->input;
     const struct contact_input *contact = case_contact(input, c);
     const char *key = contact->friction > 0.0          ? "friction"
-                      : contact->touch != TOUCH_NODES  ? "touch"
+                      : contact->touch >= 0            ? "touch"
                       : contact->normal != NORMAL_MEAN ? "normal"
                                                        : NULL;
     char path[128];

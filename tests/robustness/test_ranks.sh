@@ -64,6 +64,12 @@ same_but_for_order whole two || fail "$explosives on 2 ranks"
 for solver in mpm sph; do
     kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-failure.yaml" --set solver=$solver
 done
+# Bodies that touch after a while.
+apart=$BOLIDE_SOURCE_DIR/tests/data/apart.yaml
+rm -rf whole three
+"$BOLIDE" run "$apart" --output whole >whole.log 2>&1 || fail "bodies that are apart: $(cat whole.log)"
+on 3 run "$apart" --output three >three.log 2>&1 || fail "bodies that are apart on 3 ranks: $(cat three.log)"
+same_but_for_order whole three || fail "bodies that are apart on 3 ranks"
 everything=$BOLIDE_SOURCE_DIR/tests/data/everything.yaml
 kill_and_resume "$everything" # whose `whole` serves below
 

@@ -130,7 +130,9 @@ FEW = ({"shape": "line", "gap": 0.6, "speed": 100.0}, {"shape": "line", "gap": 8
        {"shape": "line", "gap": 4.0, "size": 20}, {"shape": "line", "gap": 4.0, "size": 20, "law": "no"},
        {}, {"law": "no"}, {"speed": 1000.0}, {"shape": "shifted", "speed": 100.0},
        {"shape": "finer", "speed": 100.0}, {"shape": "disc", "speed": 100.0},
-       {"shape": "ball", "speed": 300.0, "size": 6}, {"shape": "oblique", "speed": 100.0})
+       {"shape": "ball", "speed": 300.0, "size": 6}, {"shape": "oblique", "speed": 100.0},
+       {"solver": "mpm", "shape": "line", "gap": 4.0}, {"solver": "mpm", "speed": 1000.0},
+       {"solver": "mpm", "shape": "disc", "speed": 100.0})
 
 
 def drawn(seed, number):

@@ -24,11 +24,10 @@ struct touching {
     double dt;
 };
 
-/* What the neighbours of a particle say: whether there are any of other bodies, how near the
- * nearest is, 1 in contact; the fractions of the space around it that those of its own body, itself
+/* What the neighbours of a particle say: how near the nearest of other bodies is, 1 in contact, 0
+ * where there is none; the fractions of the space around it that those of its own body, itself
  * included, and of others fill. */
 struct nearness {
-    bool any;
     double closest, own, other;
 };
 
@@ -62,8 +61,9 @@ static double contact_of(const struct touching *touching, int32_t i, int32_t j)
                : SPH_START_CONTACT;
 }
 
-/* A walk over the neighbours of the particle's own body (OTHERS false), or those of others. */
-static void look_around(const struct touching *touching, int32_t i, bool others,
+/* A walk over the neighbours of the particle's own body (OTHERS false), or over those of others, up
+ * to the first that is nearer than ENOUGH. */
+static void look_around(const struct touching *touching, int32_t i, bool others, double enough,
                         struct nearness *near)
 {
     const struct sph *sph = touching->sph;
@@ -75,7 +75,8 @@ static void look_around(const struct touching *touching, int32_t i, bool others,
     int count = (int)n->row[i].count;
     /* near rows are found by the pair sums */
     const uint32_t *entry = n->prune ? neighbours_row(n, i) : neighbours_walk(n, i, &count);
-    for (int q = 0; q < count; q++) {
+    int q = others ? lanes_part(entry, 0, count, 0) : 0;
+    for (; q < count && !(near->closest > enough); q++) {
         const int32_t j = (int32_t)(entry[q] & ENTRY_INDEX);
         const double *other = sph->record + (size_t)j * stride;
         double r, filled;
@@ -86,7 +87,6 @@ static void look_around(const struct touching *touching, int32_t i, bool others,
         if (others) {
             const double mean =
                 0.5 * (diameter + diameter_of_volume(other[v], touching->kind.dimension));
-            near->any = true;
             near->closest =
                 maximum(near->closest, contact_of(touching, i, j) * mean / maximum(r, 1e-40));
         }
@@ -109,17 +109,18 @@ static bool touches(const struct touching *touching, int32_t i, double was)
     const struct sph *sph = touching->sph;
     const int dimension = touching->kind.dimension;
     const double *own = sph->record + (size_t)i * (size_t)muscl_stride(touching->kind);
-    struct nearness near = {false, 0.0, 0.0, 0.0};
+    struct nearness near = {0.0, 0.0, 0.0};
     if (!has_others(&sph->neighbours, i))
         return false;
-    look_around(touching, i, true, &near);
-    if (!near.any || was > 0.0 || near.closest > 1.0)
-        return near.any;
-    if (dimension == 1)
+    const double enough = was > 0.0 ? 0.0 : 1.0;
+    look_around(touching, i, true, enough, &near);
+    if (near.closest > enough)
+        return true;
+    if (dimension == 1 || !(near.other > full * (1.0 - inside)))
         return false;
     const double inverse_h = 1.0 / (sph->parameters.smoothing * own[record_diameter(dimension)]);
     near.own = own[record_volume(dimension)] * kernel_value(0.0, inverse_h, dimension);
-    look_around(touching, i, false, &near);
+    look_around(touching, i, false, 1.0, &near);
     return near.own < inside && near.other > full * (1.0 - near.own);
 }
 
