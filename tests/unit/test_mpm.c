@@ -382,8 +382,8 @@ static void surfaces_that_do_not_meet_are_left_alone(void **state)
         "contacts: {faces: {between: [flyer, plate], tension: none}}\n"
         "run: {until: 1 s}\n";
     static const char *const settings[] = {"contacts.faces.touch=nodes",
-                                           "contacts.faces.touch=surfaces"};
-    for (int k = 0; k < 2; k++) {
+                                           "contacts.faces.touch=surfaces", NULL};
+    for (size_t k = 0; k < COUNT_OF(settings); k++) {
         const struct variant variant = {"", 1, 1.0, settings[k], false};
         struct running *run = begin_fresh(blocks, &variant);
         step(run, 2);
