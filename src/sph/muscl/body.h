@@ -195,9 +195,10 @@ BOLIDE_INLINE void add_slopes(struct muscl_kind kind, const double *own, const s
  * reason. */
 
 /* The differences between the two particles of a pair, along n and across, and the fractions of
- * them that limited slopes carry: zero unless both are of the material MATTER. */
-BOLIDE_INLINE void find_change(struct muscl_kind kind, double material, const double *own,
-                               const struct lanes *lanes, struct pairs *pairs, int k)
+ * them that limited slopes carry: zero unless both are of one MATERIAL and no law parts them. */
+BOLIDE_INLINE void find_change(struct muscl_kind kind, bool with_law, double material,
+                               const double *own, const struct lanes *lanes, struct pairs *pairs,
+                               int k)
 {
     const int dimension = kind.dimension;
     const bool shear = kind.shear && dimension > 1;
@@ -210,7 +211,8 @@ BOLIDE_INLINE void find_change(struct muscl_kind kind, double material, const do
                                     vector_from(dimension, own + u, 1));
     const double along_u = vec3_dot(du, n), speed = fabs(along_u);
     const double other_z = lanes->field[z][k], other_q = lanes->field[q][k];
-    const bool smooth = (material == muscl_index(lanes->field[other][k])) &
+    const double law = with_law ? lanes->slip[k] + lanes->open[k] : 0.0;
+    const bool smooth = (material == muscl_index(lanes->field[other][k])) & (law == 0.0) &
                         (speed * own_q < own_z) & (speed * other_q < other_z);
     const double near = pairs->near[k], near_i = smooth ? near : 0.0,
                  near_j = smooth ? 2.0 - near : 0.0;
@@ -276,12 +278,12 @@ BOLIDE_INLINE void find_change(struct muscl_kind kind, double material, const do
     }
 }
 
-BOLIDE_INLINE void find_changes(struct muscl_kind kind, double material, const double *own,
-                                const struct lanes *lanes, struct pairs *pairs)
+BOLIDE_INLINE void find_changes(struct muscl_kind kind, bool with_law, double material,
+                                const double *own, const struct lanes *lanes, struct pairs *pairs)
 {
 #pragma omp simd simdlen(8)
     for (int k = 0; k < LANES; k++)
-        find_change(kind, material, own, lanes, pairs, k);
+        find_change(kind, with_law, material, own, lanes, pairs, k);
 }
 
 /* The data of a pair for the change of volumes: whether it counts, 0 or 1; whether its packing
@@ -361,7 +363,8 @@ BOLIDE_INLINE struct solved_pair solve_pair(struct muscl_kind kind, bool with_la
         left.carried.shear = pairs->share[6][k];
         right.carried.shear = pairs->share[7][k];
         const int elastic = muscl_elasticity(kind);
-        limits.elastic = with_law ? 0.0 : minimum(own[elastic], lanes->field[elastic][k]);
+        limits.elastic =
+            limits.slip + limits.open > 0.0 ? 0.0 : minimum(own[elastic], lanes->field[elastic][k]);
     }
     return (struct solved_pair){contact_pair(&left, &right, &difference, limits, law), limits,
                                 difference.sliding};

@@ -23,8 +23,7 @@ BOLIDE_INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kin
                                          loop->empty,  loop->smoothing,    loop->place};
     const double *own = loop->record + (size_t)i * (size_t)records.stride;
     const struct laws laws = {loop->neighbours, loop->groups, loop->body};
-    const double material =
-        part.with_law ? -1.0 : muscl_index(own[muscl_material(kind)]); /* none is -1 */
+    const double material = muscl_index(own[muscl_material(kind)]);
     struct lane_walk walk;
     struct lanes lanes[GROUPS];
     struct pairs pairs[GROUPS];
@@ -47,7 +46,10 @@ BOLIDE_INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kin
                 for (int m = 0; m < groups; m++)
                     walk_rows(kind, own, &lanes[m], &pairs[m], sums->row);
             for (int m = 0; m < groups; m++)
-                find_changes(kind, material, own, &lanes[m], &pairs[m]);
+                if (part.with_law)
+                    find_changes(kind, true, material, own, &lanes[m], &pairs[m]);
+                else
+                    find_changes(kind, false, material, own, &lanes[m], &pairs[m]);
             if (part.with_law)
                 for (int m = 0; m < groups; m++)
                     add_contacts(kind, true, own, &lanes[m], &pairs[m], sums->lane);
