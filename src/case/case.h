@@ -59,7 +59,7 @@ struct contact_input {
     int shear, tension;
     double friction; /* where they slip */
     int normal;      /* whose surface it is taken from */
-    int touch;       /* enum contact_touch */
+    int touch;       /* enum contact_touch; -1: as `tension` has it */
     int body[2];     /* filled by case_read */
 };
 
