@@ -9,9 +9,9 @@ __global__ void add_pairs(struct muscl_kind kind, double smoothing, double mater
 {
     const int i = (int)blockIdx.x;
     struct pairs pairs;
-    find_places(kind, smoothing, record, &lanes[i], &pairs, sums[i].lane);
+    find_places(kind, true, smoothing, record, &lanes[i], &pairs, sums[i].lane);
     walk_rows(kind, record, &lanes[i], &pairs, sums[i].row);
-    find_changes(kind, material, record, &lanes[i], &pairs);
+    find_changes(kind, true, material, record, &lanes[i], &pairs);
     add_contacts(kind, true, record, &lanes[i], &pairs, sums[i].lane);
     add_pulls(kind, record, 1, &lanes[i], &pairs, sums[i].lane);
     add_slopes(kind, record, &lanes[i], &pairs, sums[i].lane);

@@ -363,8 +363,8 @@ BOLIDE_INLINE struct solved_pair solve_pair(struct muscl_kind kind, bool with_la
         left.carried.shear = pairs->share[6][k];
         right.carried.shear = pairs->share[7][k];
         const int elastic = muscl_elasticity(kind);
-        limits.elastic =
-            limits.slip + limits.open > 0.0 ? 0.0 : minimum(own[elastic], lanes->field[elastic][k]);
+        const double lawless = 1.0 - maximum(limits.slip, limits.open);
+        limits.elastic = lawless * minimum(own[elastic], lanes->field[elastic][k]);
     }
     return (struct solved_pair){contact_pair(&left, &right, &difference, limits, law), limits,
                                 difference.sliding};

@@ -40,8 +40,11 @@ BOLIDE_INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kin
                     stage_laws(&laws, i, list, lanes[m].slip, lanes[m].open);
             }
             for (int m = 0; m < groups; m++)
-                find_places(kind, part.with_law, loop->smoothing, own, &lanes[m], &pairs[m],
-                            sums->lane);
+                if (part.with_law)
+                    find_places(kind, true, loop->smoothing, own, &lanes[m], &pairs[m], sums->lane);
+                else
+                    find_places(kind, false, loop->smoothing, own, &lanes[m], &pairs[m],
+                                sums->lane);
             if (muscl_wide(kind) > 0)
                 for (int m = 0; m < groups; m++)
                     walk_rows(kind, own, &lanes[m], &pairs[m], sums->row);
