@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "picture/internal.h"
+#include "picture/png.h"
 
 static const struct colour frame_colour = {0.35, 0.35, 0.35};
 static const struct colour grid_colour = {0.89, 0.89, 0.89};
@@ -52,16 +53,19 @@ struct error *canvas_publish(const struct canvas *canvas, const char *path, bool
     if (own_folder)
         TRY(file_check_folder(path));
     TRY(file_clear_beside(path, &beside));
-    cairo_status_t status = cairo_status(canvas->pen);
-    errno = 0;
-    if (status == CAIRO_STATUS_SUCCESS)
-        status = cairo_surface_write_to_png(canvas->surface, beside);
+    const cairo_status_t status = cairo_status(canvas->pen);
+    cairo_surface_flush(canvas->surface);
+    const struct png_image image = {cairo_image_surface_get_width(canvas->surface),
+                                    cairo_image_surface_get_height(canvas->surface),
+                                    (size_t)cairo_image_surface_get_stride(canvas->surface),
+                                    cairo_image_surface_get_data(canvas->surface)};
+    const bool drawn = status == CAIRO_STATUS_SUCCESS;
     struct error *error = NULL;
-    if (status == CAIRO_STATUS_SUCCESS) {
+    if (drawn && png_write(beside, &image)) {
         error = file_publish(path);
     } else {
         error = error_new(ERROR_SYSTEM, "%s: cannot write the picture: %s", path,
-                          errno ? strerror(errno) : cairo_status_to_string(status));
+                          drawn ? strerror(errno) : cairo_status_to_string(status));
         remove(beside);
     }
     free(beside);

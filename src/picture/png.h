@@ -1,0 +1,20 @@
+/* PNG files of pictures, quickly: cairo's own spend most of a small run on compression. */
+#ifndef BOLIDE_PNG_H
+#define BOLIDE_PNG_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Rows of pixels 0xRRGGBB from the top, as CAIRO_FORMAT_RGB24 has them: the upper byte is unused,
+ * and rows are STRIDE bytes apart. */
+struct png_image {
+    int width, height;
+    size_t stride;
+    const unsigned char *data;
+};
+
+/* Writes the file PATH; on failure errno says why. */
+bool png_write(const char *path, const struct png_image *image);
+
+#endif
