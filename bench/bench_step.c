@@ -11,11 +11,13 @@
 #include "sph/lanes.h"
 #include "sph/scheme.h"
 
-enum { VARIANTS = 4, PHASES = 4, STEPS = 50 };
+enum { VARIANTS = 4, PHASES = 6, STEPS = 50 };
 
 static const struct bench_phase phases[PHASES] = {{"neighbour search", "neighbours"},
                                                   {"gather", "records"},
-                                                  {"pair sums", "pairs"},
+                                                  {"pairs", "pairs"},
+                                                  {"pair sums", "sums"},
+                                                  {"time step", "limit"},
                                                   {"state update", "points"}};
 
 struct measured_sph {
@@ -88,10 +90,10 @@ static void print_head(void)
 {
     printf("%-22s %-6s %8s %7s %8s %-15s %7s %7s %6s %6s %7s ", "", "", "", "", "M upd.", "",
            "neigh-", "ns a", "bytes:", "", "steps");
-    printf("%6s %6s %6s %6s\n", "neigh-", "", "", "");
+    printf("%6s %6s %6s %6s %6s %6s\n", "neigh-", "", "", "", "", "");
     printf("%-22s %-6s %8s %7s %8s %-15s %7s %7s %6s %6s %7s ", "case", "order", "partic.",
            "threads", "a second", "ratio", "bours", "pair", "state", "list", "a build");
-    printf("%6s %6s %6s %6s\n", "bours", "records", "pairs", "points");
+    printf("%6s %6s %6s %6s %6s %6s\n", "bours", "records", "pairs", "sums", "limit", "points");
 }
 
 /* Cases side by side: the two orders of one, or the two of group "sparse", which compares two cases
