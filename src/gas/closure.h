@@ -11,11 +11,7 @@
 #ifndef BOLIDE_GAS_CLOSURE_H
 #define BOLIDE_GAS_CLOSURE_H
 
-#include "base/lanes.h"
-#include "gas/mixture.h"
-
-/* Cells of a row at most, and those known beyond either end of it. */
-enum { ROW_CELLS = 64, ROW_GHOSTS = 4, ROW_ROOM = ROW_CELLS + 2 * ROW_GHOSTS };
+#include "gas/mixtures.h"
 
 /* Where the cells or faces FIRST to LAST are in the numbers of a row: cell c is at [c +
  * ROW_GHOSTS], the face below it too. */
@@ -58,16 +54,16 @@ BOLIDE_INLINE void gas_burnt_of(const struct gas_closure *closure, double burnt,
     of[1] = closure->lit && closure->lit == closure->other ? burnt : 1.0;
 }
 
-/* The mixture in a cell with MASS of each material, kg/m^3 of the cell. */
-BOLIDE_INLINE struct mixture gas_mixture_of(const struct gas_closure *closure, const double mass[2],
-                                            double fraction, double burnt)
+/* Adds the mixture in a cell with MASS of each material, kg/m^3 of the cell. */
+BOLIDE_INLINE void gas_add_mixture(const struct gas_closure *closure, const double mass[2],
+                                   double fraction, double burnt, double energy, int k,
+                                   struct mixtures *mixtures)
 {
-    const struct eos *const eos[2] = {closure->eos, closure->other};
-    const double density[2] = {mixture_density(eos[0], mass[0], 1.0 - fraction),
-                               mixture_density(eos[1], mass[1], fraction)};
+    const double density[2] = {mixture_density(closure->eos, mass[0], 1.0 - fraction),
+                               mixture_density(closure->other, mass[1], fraction)};
     double of[2];
     gas_burnt_of(closure, burnt, of);
-    return mixture_of(eos, density, fraction, of);
+    mixtures_add(mixtures, k, density, fraction, of, energy);
 }
 
 /* Evaluates EOS at FIRST to LAST. The loops evaluate the form of the source, which has no branches;
@@ -130,29 +126,48 @@ static inline void row_unburn(const struct eos *eos, const double *density, cons
     }
 }
 
-/* Place K of both materials at DENSITY and ENERGY. */
-static inline void gas_evaluate_mixed(const struct gas_closure *closure,
-                                      const struct gas_content *of, double density, double energy,
-                                      int k, struct row_values *values)
+/* Place K of both materials, which markers divide, at DENSITY and ENERGY. */
+BOLIDE_INLINE void gas_evaluate_marked(const struct gas_content *of, double density, double energy,
+                                       int k, struct row_values *values)
+{
+    values->pressure[k] = of->gamma[k] * density * energy;
+    values->dp_drho[k] = 4.0 * fabs(values->pressure[k]) / density; /* above that of both */
+    values->dp_de[k] = 0.0;
+}
+
+/* The places FIRST to LAST of both materials at DENSITY and ENERGY. */
+APART void gas_evaluate_mixed(const struct gas_closure *closure, const struct gas_content *of,
+                              const double *density, const double *energy, int first, int last,
+                              struct row_values *values)
 {
     const struct eos *const eos[2] = {closure->eos, closure->other};
-    if (closure->marked) {
-        values->pressure[k] = of->gamma[k] * density * energy;
-        values->dp_drho[k] = 4.0 * fabs(values->pressure[k]) / density; /* above that of both */
-        values->dp_de[k] = 0.0;
-        return;
+    double gamma[ROW_ROOM], slope[ROW_ROOM];
+    struct mixtures mixtures;
+    mixtures.count = 0;
+    FOR_ROW (k, first, last) {
+        if (of->kind[k] != CONTENT_BOTH)
+            continue;
+        const double own[2] = {of->own[0][k], of->own[1][k]};
+        double burnt[2];
+        gas_burnt_of(closure, closure->lit ? of->burnt[k] : 1.0, burnt);
+        mixtures_add(&mixtures, k, own, of->fraction[k], burnt, density[k] * energy[k]);
     }
-    const double own[2] = {of->own[0][k], of->own[1][k]};
-    double burnt[2];
-    gas_burnt_of(closure, closure->lit ? of->burnt[k] : 1.0, burnt);
-    const struct mixture mixture = mixture_of(eos, own, of->fraction[k], burnt);
-    const double gamma = mixture_gamma(&mixture),
-                 pressure = maximum(mixture_pressure(&mixture, density * energy), of->least),
-                 least = of->least > 0.0 ? pressure / mixture.density : -(double)INFINITY,
-                 sound_square = maximum(mixture_sound_square(&mixture, pressure), least);
-    values->pressure[k] = pressure;
-    values->dp_de[k] = gamma * density;
-    values->dp_drho[k] = sound_square - gamma * pressure / density;
+    const int lanes = mixtures_find(&mixtures, eos);
+    for (int i = 0; i < lanes; i++) {
+        const struct mixture mixture = mixtures_at(&mixtures, i);
+        const double pressure = maximum(mixtures.pressure[i], of->least),
+                     least = of->least > 0.0 ? pressure / mixture.density : -(double)INFINITY,
+                     sound_square = maximum(mixture_sound_square(&mixture, pressure), least);
+        gamma[i] = mixture_gamma(&mixture);
+        mixtures.pressure[i] = pressure;
+        slope[i] = sound_square;
+    }
+    for (int i = 0; i < mixtures.count; i++) {
+        const int k = mixtures.place[i];
+        values->pressure[k] = mixtures.pressure[i];
+        values->dp_de[k] = gamma[i] * density[k];
+        values->dp_drho[k] = slope[i] - gamma[i] * mixtures.pressure[i] / density[k];
+    }
 }
 
 /* Where some places are of the second material or of both: VALUES are those of the first. */
@@ -170,9 +185,12 @@ APART void gas_evaluate_two(const struct gas_closure *closure, const struct gas_
         values->dp_drho[k] = second ? other.dp_drho[k] : values->dp_drho[k];
         values->dp_de[k] = second ? other.dp_de[k] : values->dp_de[k];
     }
-    FOR_ROW (k, first, last)
-        if (of->kind[k] == CONTENT_BOTH)
-            gas_evaluate_mixed(closure, of, density[k], energy[k], k, values);
+    if (!closure->marked)
+        gas_evaluate_mixed(closure, of, density, energy, first, last, values);
+    else
+        FOR_ROW (k, first, last)
+            if (of->kind[k] == CONTENT_BOTH)
+                gas_evaluate_marked(of, density[k], energy[k], k, values);
 }
 
 /* The closure at FIRST to LAST, whose content is OF. */

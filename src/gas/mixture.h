@@ -46,31 +46,40 @@ BOLIDE_INLINE double mixture_density(const struct eos *eos, double mass, double 
     return minimum(maximum(density, 1e-4 * reference), 1e2 * reference);
 }
 
-static inline struct mixture_part mixture_part_of(const struct eos *eos, double density,
-                                                  double fraction, double burnt)
+/* The specific energy at which the rise of dp/drho is taken, J/kg. */
+static const double MIXTURE_WARM = 1e6;
+
+/* From the values of an equation of state at DENSITY with no energy, and with MIXTURE_WARM. */
+BOLIDE_INLINE struct mixture_part mixture_part_from(struct eos_value cold, struct eos_value warm,
+                                                    double density, double fraction, double burnt)
 {
-    static const double energy = 1e6;
-    const double none[POINT_HISTORY] = {0.0};
-    struct eos_value cold = {0.0, 0.0, 0.0, POINT_NO_SOUND}, warm = cold;
-    switch (eos->kind) { /* both in one place: what they share is computed once */
-#define MIXTURE_CASE(name)                                       \
-    case EOS_##name:                                             \
-        cold = eos_##name(&eos->of.name, density, 0.0, none);    \
-        warm = eos_##name(&eos->of.name, density, energy, none); \
-        break;
-        EOS_STATELESS(MIXTURE_CASE)
-#undef MIXTURE_CASE
-    default:
-        break;
-    }
     struct mixture_part part;
     part.density = density;
     part.ratio = cold.dp_de;
     part.weight = fraction * density / cold.dp_de;
     part.cold = burnt * cold.pressure;
     part.slope = burnt * cold.dp_drho;
-    part.rise = (warm.dp_drho - cold.dp_drho) / energy;
+    part.rise = (warm.dp_drho - cold.dp_drho) / MIXTURE_WARM;
     return part;
+}
+
+static inline struct mixture_part mixture_part_of(const struct eos *eos, double density,
+                                                  double fraction, double burnt)
+{
+    const double none[POINT_HISTORY] = {0.0};
+    struct eos_value cold = {0.0, 0.0, 0.0, POINT_NO_SOUND}, warm = cold;
+    switch (eos->kind) { /* both in one place: what they share is computed once */
+#define MIXTURE_CASE(name)                                             \
+    case EOS_##name:                                                   \
+        cold = eos_##name(&eos->of.name, density, 0.0, none);          \
+        warm = eos_##name(&eos->of.name, density, MIXTURE_WARM, none); \
+        break;
+        EOS_STATELESS(MIXTURE_CASE)
+#undef MIXTURE_CASE
+    default:
+        break;
+    }
+    return mixture_part_from(cold, warm, density, fraction, burnt);
 }
 
 /* A mixture of EOS at DENSITY; FRACTION is that of the second, and BURNT what has of each: 1 unless

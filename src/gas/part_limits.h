@@ -29,7 +29,10 @@ static inline void parts_thaw(struct gas_row *row)
 static inline bool parts_are_spent(const struct gas_row *row, const struct row_states *cell)
 {
     const double *pressure = cell->of.of[PRIMITIVE_PRESSURE];
-    bool spent = false;
+    const struct eos *const eos[2] = {row->closure.eos, row->closure.other};
+    struct mixtures mixtures;
+    double bound[ROW_ROOM];
+    mixtures.count = 0;
     FOR_ROW (k, 0, row->cells - 1) {
         const double fraction = row->part[PART_FRACTION][k], density = row->u.of[GAS_DENSITY][k];
         const double least = minimum(pressure[k], minimum(pressure[k - 1], pressure[k + 1]));
@@ -39,10 +42,14 @@ static inline bool parts_are_spent(const struct gas_row *row, const struct row_s
         for (int n = GAS_MOMENTUM; n < GAS_ENERGY; n++)
             kinetic += 0.5 * square(row->u.of[n][k]) / density;
         const double second = row->part[PART_MASS][k], mass[2] = {density - second, second};
-        const struct mixture mixture = gas_mixture_of(&row->closure, mass, fraction, row->burnt[k]);
-        spent |= !(mixture_pressure(&mixture, row->u.of[GAS_ENERGY][k] - kinetic) >
-                   0.5 * GAS_LEAST * least);
+        bound[mixtures.count] = 0.5 * GAS_LEAST * least;
+        gas_add_mixture(&row->closure, mass, fraction, row->burnt[k],
+                        row->u.of[GAS_ENERGY][k] - kinetic, k, &mixtures);
     }
+    bool spent = false;
+    mixtures_find(&mixtures, eos);
+    for (int i = 0; i < mixtures.count; i++)
+        spent |= !(mixtures.pressure[i] >= bound[i]);
     return spent;
 }
 

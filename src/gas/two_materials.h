@@ -258,13 +258,17 @@ static inline void parts_mark_lost(const struct gas_row *row, const struct row_p
                                    const struct row_states *cell, int offset, double side, double r,
                                    const struct gas_numbers *flux, double *lost)
 {
+    const struct eos *const eos[2] = {row->closure.eos, row->closure.other};
+    const double *own = row->part[PART_FRACTION], *second = row->part[PART_MASS];
+    struct mixtures mixtures;
+    mixtures.count = 0;
     FOR_ROW (k, 0, row->cells) {
         const int c = k + offset;
         if (parts->kind[c] != CONTENT_BOTH || lost[k] > 0.0)
             continue;
         const double velocity = cell->of.of[PRIMITIVE_VELOCITY + row->axis][c],
                      pressure = cell->of.of[PRIMITIVE_PRESSURE][c], part = 2.0 * side * r;
-        double half[GAS_NUMBERS], kinetic = 0.0, mass[2], fraction[2];
+        double half[GAS_NUMBERS], kinetic = 0.0, mass[2];
         for (int n = 0; n < GAS_NUMBERS; n++) {
             const double u = row->u.of[n][c];
             const double push = n == GAS_MOMENTUM + row->axis ? pressure
@@ -274,18 +278,21 @@ static inline void parts_mark_lost(const struct gas_row *row, const struct row_p
         }
         for (int n = GAS_MOMENTUM; n < GAS_ENERGY; n++)
             kinetic += 0.5 * square(half[n]) / half[GAS_DENSITY];
-        const double *own = row->part[PART_FRACTION];
-        mass[1] = row->part[PART_MASS][c] -
-                  part * (parts->flux[PART_MASS][k] - velocity * row->part[PART_MASS][c]);
+        mass[1] = second[c] - part * (parts->flux[PART_MASS][k] - velocity * second[c]);
         mass[0] = half[GAS_DENSITY] - mass[1];
-        fraction[1] = own[c] - part * (parts->flux[PART_FRACTION][k] - own[c] * parts->speed[k]);
-        fraction[0] = 1.0 - fraction[1];
-        bool stays = half[GAS_DENSITY] > GAS_LEAST * row->u.of[GAS_DENSITY][c];
-        if (stays && fraction[0] > 0.0 && fraction[1] > 0.0) {
-            const struct mixture mixture =
-                gas_mixture_of(&row->closure, mass, fraction[1], row->burnt[c]);
-            stays = mixture_pressure(&mixture, half[GAS_ENERGY] - kinetic) > GAS_LEAST * pressure;
-        }
+        const double fraction =
+            own[c] - part * (parts->flux[PART_FRACTION][k] - own[c] * parts->speed[k]);
+        const bool stays = half[GAS_DENSITY] > GAS_LEAST * row->u.of[GAS_DENSITY][c];
+        lost[k] = stays ? 0.0 : 1.0;
+        if (stays && 1.0 - fraction > 0.0 && fraction > 0.0)
+            gas_add_mixture(&row->closure, mass, fraction, row->burnt[c],
+                            half[GAS_ENERGY] - kinetic, k, &mixtures);
+    }
+    mixtures_find(&mixtures, eos);
+    for (int i = 0; i < mixtures.count; i++) {
+        const int k = mixtures.place[i];
+        const bool stays =
+            mixtures.pressure[i] > GAS_LEAST * cell->of.of[PRIMITIVE_PRESSURE][k + offset];
         lost[k] = stays ? 0.0 : 1.0;
     }
 }
