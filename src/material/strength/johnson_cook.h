@@ -108,11 +108,12 @@ BOLIDE_INLINE double strength_johnson_cook_yield(const struct strength_johnson_c
 /* Up to eight points that flow, each on its own: what it does for one does not depend on the
  * others. */
 struct johnson_cook_points {
-    double trial[LANES];     /* Mises stress of the elastic trial, beyond SLOW */
+    double trial[LANES];     /* Mises stress of the elastic trial, beyond YIELD */
     double strain[LANES];    /* plastic, before the step */
-    double slow[LANES];      /* Y of slow flow before the step */
+    double yield[LANES];     /* Y before the step; implicit: of slow flow */
     double softening[LANES]; /* 1 - T*^m */
     double flow[LANES];      /* the plastic strain of the step: found */
+    double stress[LANES];    /* and the Mises stress after it */
 };
 
 /* A first guess of what a step of DT flows, from the hardening along its slope ALONG:
@@ -144,9 +145,9 @@ BOLIDE_INLINE void johnson_cook_flow(const struct strength_johnson_cook *solid, 
     const double triple = 3.0 * solid->shear_modulus, kink = solid->rate * dt;
     int64_t going[LANES], left = count;
     for (int k = 0; k < count; k++) {
-        const double strain = p->strain[k], hardening = p->slow[k] - solid->a * p->softening[k];
+        const double strain = p->strain[k], hardening = p->yield[k] - solid->a * p->softening[k];
         going[k] = 1;
-        p->flow[k] = johnson_cook_guess(solid, dt, p->trial[k], p->slow[k],
+        p->flow[k] = johnson_cook_guess(solid, dt, p->trial[k], p->yield[k],
                                         strain > 0.0 ? hardening * solid->n / strain : 0.0);
     }
     for (int round = 0; round < 60 && left > 0; round++) {
@@ -171,6 +172,23 @@ BOLIDE_INLINE void johnson_cook_flow(const struct strength_johnson_cook *solid, 
             left += going[k];
         }
     }
+    for (int k = 0; k < count; k++)
+        p->stress[k] = p->trial[k] - triple * p->flow[k];
+}
+
+/* The same by one evaluation. */
+BOLIDE_INLINE void johnson_cook_flow_once(const struct strength_johnson_cook *solid, int count,
+                                          double dt, struct johnson_cook_points *p)
+{
+    for (int k = 0; k < count; k++) {
+        const double low = p->strain[k] + 1e-4,
+                     slope = solid->b * power(low, solid->n) * solid->n / low, /* B n eps^(n-1) */
+            flow = (p->trial[k] - p->yield[k]) / (3.0 * solid->shear_modulus + slope);
+        const double stress = johnson_cook_slow(solid, p->strain[k] + flow, p->softening[k]) *
+                              johnson_cook_hastening(solid, flow / dt);
+        p->flow[k] = flow;
+        p->stress[k] = minimum(stress, p->trial[k]);
+    }
 }
 
 BOLIDE_INLINE void strength_johnson_cook(const struct strength_johnson_cook *solid,
@@ -181,26 +199,18 @@ BOLIDE_INLINE void strength_johnson_cook(const struct strength_johnson_cook *sol
     struct sym3 s = strength_elastic(solid->shear_modulus, motion, point->deviator);
     double trial = sym3_mises(s), strain = point->history[HISTORY_plastic_strain];
     double softening = johnson_cook_softening(solid, point->history[HISTORY_plastic_heating]);
-    double triple = 3.0 * solid->shear_modulus, flow, stress;
     double yield = johnson_cook_slow(solid, strain, softening);
     point->deviator = s;
     if (solid->return_map == JOHNSON_COOK_EXPLICIT)
         yield *= johnson_cook_hastening(solid, strength_strain_rate(motion->strain_rate));
     if (!(trial > yield))
         return;
-    if (solid->return_map == JOHNSON_COOK_EXPLICIT) {
-        double slope = solid->b * power(strain + 1e-4, solid->n) * solid->n /
-                       (strain + 1e-4); /* B n eps^(n-1) */
-        flow = (trial - yield) / (triple + slope);
-        stress = johnson_cook_slow(solid, strain + flow, softening) *
-                 johnson_cook_hastening(solid, flow / motion->dt);
-        stress = minimum(stress, trial);
-    } else {
-        struct johnson_cook_points one = {{trial}, {strain}, {yield}, {softening}, {0.0}};
+    struct johnson_cook_points one = {{trial}, {strain}, {yield}, {softening}, {0.0}, {0.0}};
+    if (solid->return_map == JOHNSON_COOK_EXPLICIT)
+        johnson_cook_flow_once(solid, 1, motion->dt, &one);
+    else
         johnson_cook_flow(solid, 1, motion->dt, &one);
-        flow = one.flow[0];
-        stress = trial - triple * flow;
-    }
+    const double flow = one.flow[0], stress = one.stress[0];
     point->deviator = sym3_scale(stress / trial, s);
     point->history[HISTORY_plastic_strain] = strain + flow;
     if (johnson_cook_softens(solid))
@@ -208,16 +218,16 @@ BOLIDE_INLINE void strength_johnson_cook(const struct strength_johnson_cook *sol
             stress * flow / (motion->density * solid->capacity);
 }
 
-/* What points flow that flow at all: those are put side by side. */
+/* What points flow that flow at all: those are put side by side. YIELD is Y before the step. */
 BOLIDE_INLINE void johnson_cook_batch_flow(const struct strength_johnson_cook *solid,
                                            const struct batch *b, const double *trial,
-                                           const double *slow, const double *softening,
-                                           double *flow)
+                                           const double *yield, const double *softening,
+                                           double *flow, double *stress)
 {
     int flowing[BATCH + LANES], count = 0;
     for (int k = 0; k < b->count; k++) {
         flowing[count] = k;
-        count += trial[k] > slow[k];
+        count += trial[k] > yield[k];
     }
     if (count == 0)
         return;
@@ -229,26 +239,31 @@ BOLIDE_INLINE void johnson_cook_batch_flow(const struct strength_johnson_cook *s
         for (int lane = 0; lane < LANES; lane++) {
             p.trial[lane] = trial[at[lane]];
             p.strain[lane] = b->plastic_strain[at[lane]];
-            p.slow[lane] = slow[at[lane]];
+            p.yield[lane] = yield[at[lane]];
             p.softening[lane] = softening[at[lane]];
         }
-        johnson_cook_flow(solid, LANES, b->dt, &p);
-        for (int lane = 0; lane < LANES; lane++)
+        if (solid->return_map == JOHNSON_COOK_EXPLICIT)
+            johnson_cook_flow_once(solid, LANES, b->dt, &p);
+        else
+            johnson_cook_flow(solid, LANES, b->dt, &p);
+        for (int lane = 0; lane < LANES; lane++) {
             flow[at[lane]] = p.flow[lane];
+            stress[at[lane]] = p.stress[lane];
+        }
     }
 }
 
 BOLIDE_INLINE void strength_johnson_cook_batch(const struct strength_johnson_cook *solid,
                                                struct batch *b)
 {
-    double trial[BATCH], slow[BATCH], softening[BATCH], flow[BATCH];
+    double trial[BATCH], yield[BATCH], softening[BATCH], flow[BATCH], stress[BATCH];
     const bool softens = johnson_cook_softens(solid);
     for (int k = 0; k < b->count; k++) {
         const struct motion motion = batch_motion(b, k);
         const struct sym3 s =
             strength_elastic(solid->shear_modulus, &motion, batch_tensor(b->deviator, k));
         batch_keep_tensor(b->new_deviator, k, s);
-        trial[k] = sym3_mises(s);
+        trial[k] = stress[k] = sym3_mises(s);
         softening[k] = 1.0;
         flow[k] = 0.0;
     }
@@ -256,15 +271,18 @@ BOLIDE_INLINE void strength_johnson_cook_batch(const struct strength_johnson_coo
         for (int k = 0; k < b->count; k++)
             softening[k] = johnson_cook_softening(solid, b->plastic_heating[k]);
     for (int k = 0; k < b->count; k++)
-        slow[k] = johnson_cook_slow(solid, b->plastic_strain[k], softening[k]);
-    johnson_cook_batch_flow(solid, b, trial, slow, softening, flow);
+        yield[k] = johnson_cook_slow(solid, b->plastic_strain[k], softening[k]);
+    if (solid->return_map == JOHNSON_COOK_EXPLICIT)
+        for (int k = 0; k < b->count; k++)
+            yield[k] *= johnson_cook_hastening(
+                solid, strength_strain_rate(batch_tensor(b->strain_rate, k)));
+    johnson_cook_batch_flow(solid, b, trial, yield, softening, flow, stress);
     for (int k = 0; k < b->count; k++) {
-        const double stress = trial[k] - 3.0 * solid->shear_modulus * flow[k];
-        const double share = flow[k] > 0.0 ? stress / trial[k] : 1.0;
+        const double share = flow[k] > 0.0 ? stress[k] / trial[k] : 1.0;
         batch_keep_tensor(b->new_deviator, k, sym3_scale(share, batch_tensor(b->new_deviator, k)));
         b->plastic_strain[k] += flow[k];
         if (softens)
-            b->plastic_heating[k] += stress * flow[k] / (b->new_density[k] * solid->capacity);
+            b->plastic_heating[k] += stress[k] * flow[k] / (b->new_density[k] * solid->capacity);
     }
 }
 
@@ -273,7 +291,7 @@ BOLIDE_INLINE struct strength_traits strength_johnson_cook_traits(
     const struct strength_johnson_cook *solid)
 {
     struct strength_traits traits = strength_default_traits();
-    traits.batched = solid->return_map == JOHNSON_COOK_IMPLICIT;
+    traits.batched = true;
     traits.capacity = solid->capacity;
     if (!johnson_cook_softens(solid))
         return traits;
