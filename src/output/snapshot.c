@@ -1,7 +1,7 @@
 /* Snapshots as VTKHDF 1.0, an UnstructuredGrid in one piece; see snapshot.h. Its cells are
  * vertices where members are particles, with the fields on the points, and lines, pixels or voxels
- * where members are cells, each with corners of its own and the fields on the cells. Points are
- * 64-bit floats; the fields, which are there to be looked at, 32-bit. */
+ * where members are cells, with the fields on the cells (mesh.h). Points are 64-bit floats; the
+ * fields, which are there to be looked at, 32-bit. */
 #include "output/snapshot.h"
 
 #include <stdlib.h>
@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "output/hdf5_file.h"
+#include "output/mesh.h"
 #include "output/rows.h"
 
 enum { VTK_VERTEX = 1, VTK_LINE = 3, VTK_PIXEL = 8, VTK_VOXEL = 11 };
@@ -24,15 +25,17 @@ struct writing {
     struct error *error;
 };
 
+enum { ALONE = -1 };
+
 /* A dataset to write: rows of numbers of TYPE, found by FILL, which puts the rows begin .. end - 1
  * into OUT. */
 struct dataset {
     const char *name;
     hid_t type;
-    int64_t rows;     /* of all ranks */
-    int components;   /* 1: a plain list of numbers */
-    int each;         /* rows of the dataset that a row found by FILL makes */
-    bool distributed; /* over the ranks, a row a particle; otherwise rank 0 knows all */
+    int64_t rows;   /* of all ranks */
+    int64_t own;    /* of them, of this rank; ALONE: rank 0 knows all */
+    int components; /* 1: a plain list of numbers */
+    int each;       /* rows of the dataset that a row found by FILL makes */
     void (*fill)(const void *context, int64_t begin, int64_t end, void *out);
     const void *context;
     const char *unit; /* NULL or empty: none */
@@ -101,31 +104,19 @@ static void write_dataset(struct writing *w, const struct dataset *set)
 {
     static const struct ranks alone = {0, 1, false};
     const size_t components = (size_t)(set->components * set->each);
-    const struct rows rows = {set->distributed ? w->population->count : set->rows,
+    const bool distributed = set->own != ALONE;
+    const struct rows rows = {distributed ? set->own : set->rows,
                               components * H5Tget_size(set->type), components * sizeof(double),
                               set->fill, set->context};
-    if (!set->distributed && !w->here)
+    if (!distributed && !w->here)
         return;
     struct sink sink = open_sink(w, set);
-    w->error = rows_pass(set->distributed ? w->simulation->ranks : &alone, &rows, put_rows, &sink,
-                         w->error);
+    w->error =
+        rows_pass(distributed ? w->simulation->ranks : &alone, &rows, put_rows, &sink, w->error);
     if (sink.dataset >= 0)
         H5Dclose(sink.dataset);
     if (sink.space >= 0)
         H5Sclose(sink.space);
-}
-
-static void fill_counting(const void *context, int64_t begin, int64_t end, void *out)
-{
-    (void)context;
-    for (int64_t i = begin; i < end; i++)
-        ((int64_t *)out)[i - begin] = i;
-}
-
-/* The corners that a member has: of a particle its position. */
-static int corners_of(const struct population *population)
-{
-    return population->kind == POPULATION_OF_CELLS ? 1 << population->dimension : 1;
 }
 
 static void fill_types(const void *context, int64_t begin, int64_t end, void *out)
@@ -139,27 +130,9 @@ static void fill_types(const void *context, int64_t begin, int64_t end, void *ou
 /* Where the corners of each VTK cell begin in the list of them. */
 static void fill_offsets(const void *context, int64_t begin, int64_t end, void *out)
 {
-    const int corners = corners_of(context);
+    const struct mesh *mesh = context;
     for (int64_t i = begin; i < end; i++)
-        ((int64_t *)out)[i - begin] = i * corners;
-}
-
-/* Corner K of a cell lies above its centre along axis A where bit A of K is set: the order of VTK's
- * pixels and voxels. */
-static void fill_positions(const void *context, int64_t begin, int64_t end, void *out)
-{
-    const struct population *population = context;
-    const int corners = corners_of(population);
-    const double half = 0.5 * population->edge;
-    double(*point)[3] = out;
-    for (int64_t i = begin; i < end; i++)
-        for (int k = 0; k < corners; k++, point++)
-            for (int axis = 0; axis < 3; axis++) {
-                const double off = axis >= population->dimension || corners == 1 ? 0.0
-                                   : k >> axis & 1                               ? half
-                                                                                 : -half;
-                (*point)[axis] = population->position[i][axis] + off;
-            }
+        ((int64_t *)out)[i - begin] = i * mesh->corners;
 }
 
 static void fill_ids(const void *context, int64_t begin, int64_t end, void *out)
@@ -208,8 +181,8 @@ static void fill_source(const void *context, int64_t begin, int64_t end, void *o
 static void write_column(struct writing *w, const struct column *column, int64_t count)
 {
     const struct source source = {w->population, column};
-    write_dataset(w, &(struct dataset){column->name, H5T_NATIVE_FLOAT, count, column->components, 1,
-                                       true, fill_source, &source, column->unit});
+    write_dataset(w, &(struct dataset){column->name, H5T_NATIVE_FLOAT, count, w->population->count,
+                                       column->components, 1, fill_source, &source, column->unit});
 }
 
 /* Writes the NAMES that the numbers of a field stand for, as ASCII texts of any length: VTK 9.1
@@ -231,19 +204,19 @@ static void write_names(struct writing *w, const char *dataset, const struct nam
     H5Tclose(type);
 }
 
-static void write_geometry(struct writing *w, int64_t count)
+static void write_geometry(struct writing *w, const struct mesh *mesh, int64_t count)
 {
-    const struct population *particles = w->population;
-    const int each = corners_of(particles);
-    const int64_t points = count * each;
+    const struct population *p = w->population;
+    const int64_t ids = count * mesh->corners;
     const struct dataset sets[] = {
-        {"NumberOfPoints", H5T_NATIVE_INT64, 1, 1, 1, false, fill_one, &points, NULL},
-        {"NumberOfCells", H5T_NATIVE_INT64, 1, 1, 1, false, fill_one, &count, NULL},
-        {"NumberOfConnectivityIds", H5T_NATIVE_INT64, 1, 1, 1, false, fill_one, &points, NULL},
-        {"Points", H5T_NATIVE_DOUBLE, count, 3, each, true, fill_positions, particles, NULL},
-        {"Connectivity", H5T_NATIVE_INT64, points, 1, 1, false, fill_counting, NULL, NULL},
-        {"Offsets", H5T_NATIVE_INT64, count + 1, 1, 1, false, fill_offsets, particles, NULL},
-        {"Types", H5T_NATIVE_UINT8, count, 1, 1, false, fill_types, particles, NULL},
+        {"NumberOfPoints", H5T_NATIVE_INT64, 1, ALONE, 1, 1, fill_one, &mesh->total, NULL},
+        {"NumberOfCells", H5T_NATIVE_INT64, 1, ALONE, 1, 1, fill_one, &count, NULL},
+        {"NumberOfConnectivityIds", H5T_NATIVE_INT64, 1, ALONE, 1, 1, fill_one, &ids, NULL},
+        {"Points", H5T_NATIVE_DOUBLE, mesh->total, mesh->own, 3, 1, mesh_fill_points, mesh, NULL},
+        {"Connectivity", H5T_NATIVE_INT64, count, p->count, 1, mesh->corners, mesh_fill_corners,
+         mesh, NULL},
+        {"Offsets", H5T_NATIVE_INT64, count + 1, ALONE, 1, 1, fill_offsets, mesh, NULL},
+        {"Types", H5T_NATIVE_UINT8, count, ALONE, 1, 1, fill_types, p, NULL},
     };
     for (size_t i = 0; i < COUNT_OF(sets); i++)
         write_dataset(w, &sets[i]);
@@ -260,29 +233,39 @@ static void fill_ghosts(const void *context, int64_t begin, int64_t end, void *o
         ((unsigned char *)out)[i - begin] = population_has(cells, (int32_t)i) ? 0 : VTK_HIDDEN_CELL;
 }
 
+/* Whether a snapshot has the column: positions are "Points", and cells of gas have no stress but
+ * their pressure. */
+static bool is_written(const struct population *population, const char *name)
+{
+    if (population->kind == POPULATION_OF_CELLS &&
+        (!strcmp(name, "stress") || !strcmp(name, "equivalent_stress")))
+        return false;
+    return strcmp(name, "position") != 0;
+}
+
 static void write_fields(struct writing *w, int64_t count)
 {
-    const struct population *particles = w->population;
+    const struct population *p = w->population;
     const struct dataset sets[] = {
-        {"id", H5T_NATIVE_INT64, count, 1, 1, true, fill_ids, particles, NULL},
-        {"material", H5T_NATIVE_UINT16, count, 1, 1, true, fill_numbers, particles->material, NULL},
-        {"body", H5T_NATIVE_UINT16, count, 1, 1, true, fill_numbers, particles->body, NULL},
+        {"id", H5T_NATIVE_INT64, count, p->count, 1, 1, fill_ids, p, NULL},
+        {"material", H5T_NATIVE_UINT16, count, p->count, 1, 1, fill_numbers, p->material, NULL},
+        {"body", H5T_NATIVE_UINT16, count, p->count, 1, 1, fill_numbers, p->body, NULL},
     };
     for (size_t i = 0; i < COUNT_OF(sets); i++)
         write_dataset(w, &sets[i]);
-    if (particles->kind == POPULATION_OF_CELLS)
-        write_dataset(w, &(struct dataset){ghost_name, H5T_NATIVE_UINT8, count, 1, 1, true,
-                                           fill_ghosts, particles, NULL});
-    for (int i = 0; i < particles->columns; i++)
-        if (strcmp(particles->column[i].name, "position") != 0) /* that is "Points" */
-            write_column(w, &particles->column[i], count);
+    if (p->kind == POPULATION_OF_CELLS)
+        write_dataset(w, &(struct dataset){ghost_name, H5T_NATIVE_UINT8, count, p->count, 1, 1,
+                                           fill_ghosts, p, NULL});
+    for (int i = 0; i < p->columns; i++)
+        if (is_written(p, p->column[i].name))
+            write_column(w, &p->column[i], count);
 }
 
 static void write_moment(struct writing *w)
 {
     const struct dataset sets[] = {
-        {"time", H5T_NATIVE_DOUBLE, 1, 1, 1, false, fill_one, &w->simulation->time, "s"},
-        {"step", H5T_NATIVE_INT64, 1, 1, 1, false, fill_one, &w->simulation->step, NULL},
+        {"time", H5T_NATIVE_DOUBLE, 1, ALONE, 1, 1, fill_one, &w->simulation->time, "s"},
+        {"step", H5T_NATIVE_INT64, 1, ALONE, 1, 1, fill_one, &w->simulation->step, NULL},
     };
     const struct simulation_case *input = w->simulation->problem->input;
     for (size_t i = 0; i < COUNT_OF(sets); i++)
@@ -306,7 +289,7 @@ static bool mark_as_vtk(hid_t root)
     return done && put_text(root, "Type", "UnstructuredGrid");
 }
 
-static void write_all(struct writing *w, hid_t file)
+static void write_all(struct writing *w, const struct mesh *mesh, hid_t file)
 {
     enum { ROOT, POINTS, CELLS, FIELDS, GROUPS };
     static const char *const names[GROUPS] = {"/VTKHDF", "/VTKHDF/PointData", "/VTKHDF/CellData",
@@ -323,7 +306,7 @@ static void write_all(struct writing *w, hid_t file)
     if (w->here && !w->error && (!made || !mark_as_vtk(group[ROOT])))
         w->error = hdf5_error(ERROR_SYSTEM, "the group VTKHDF cannot be made");
     w->group = group[ROOT];
-    write_geometry(w, count);
+    write_geometry(w, mesh, count);
     w->group = group[w->population->kind == POPULATION_OF_CELLS ? CELLS : POINTS];
     write_fields(w, count);
     w->group = group[FIELDS];
@@ -336,6 +319,8 @@ static void write_all(struct writing *w, hid_t file)
 struct error *snapshot_write(const char *path, const struct simulation *simulation,
                              const struct population *population)
 {
+    struct mesh mesh;
+    TRY(mesh_make(simulation->ranks, population, &mesh));
     struct hdf5_printing printing = hdf5_quiet();
     hid_t file = H5I_INVALID_HID;
     struct writing writing = {
@@ -343,10 +328,11 @@ struct error *snapshot_write(const char *path, const struct simulation *simulati
     if (writing.here)
         writing.error = hdf5_create(path, false, &file);
     const bool created = writing.here && !writing.error;
-    write_all(&writing, file);
+    write_all(&writing, &mesh, file);
     if (created)
         writing.error = hdf5_finish(path, file, error_context(writing.error, "%s", path));
     hdf5_restore(printing);
+    mesh_free(&mesh);
     return ranks_agree(simulation->ranks, writing.error);
 }
 
