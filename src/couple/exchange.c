@@ -154,6 +154,21 @@ static bool share_energy(const struct gas_view *view, const double mass[2], cons
     return near;
 }
 
+/* Where both gases are BESIDE a gate and one is next to nothing of what waits there, that comes in
+ * as the other: a layer of it would be a single very hot particle, or never be full. */
+static void drop_trace(const struct beside *beside, double pending[PASSES])
+{
+    static const double trace = 3e-5;
+    const double all = pending[PASS_MASS];
+    double *second = &pending[PASS_SECOND];
+    if (!(beside->of[0] > 0.0 && beside->of[1] > 0.0))
+        return;
+    if (*second < trace * all)
+        *second = 0.0;
+    else if (all - *second < trace * all)
+        *second = all;
+}
+
 /* Layers of particles, LAYER thick, come in through a gate: of each material of which one waits.
  * What is left waits on: particles of next to nothing, whose density follows from that of a trace
  * in cells of gas, would be squeezed with all that comes behind. */
@@ -163,6 +178,7 @@ static struct error *emit_layers(struct cfdmp *cfdmp, int axis, int side, int64_
     const struct gas_view view = gas_view(cfdmp->gas);
     struct gate *gate = &cfdmp->side[axis][side].gate[number];
     const double area = gate_area(cfdmp, axis, side, number);
+    drop_trace(beside, gate->pending);
     for (int m = 0; m < 2; m++) {
         const double all = gate->pending[PASS_MASS], second = gate->pending[PASS_SECOND];
         const double mass[2] = {beside->of[0] > 0.0 ? maximum(all - second, 0.0) : 0.0,

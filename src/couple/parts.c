@@ -43,6 +43,7 @@ static struct error *make_mpm_part(struct cfdmp *cfdmp, const struct simulation 
     part_close_faces(&cfdmp->maker, part, &cfdmp->cut, &simulation->problem->place);
     TRY(part_create(&cfdmp->maker, part, simulation, &mpm_class, &cfdmp->parameters.mpm));
     cfdmp->mpm = part->solver;
+    mpm_limit_by_nodes(cfdmp->mpm);
     return NULL;
 }
 

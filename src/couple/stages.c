@@ -393,12 +393,14 @@ struct error *afdmp_make_parts(struct afdmp *afdmp, struct simulation *simulatio
     if (solids) {
         TRY(make_mpm_part(afdmp, simulation, &afdmp->last, &afdmp->region, &all, true));
         afdmp->last_mpm = afdmp->last.solver;
+        mpm_limit_by_nodes(afdmp->last_mpm);
         TRY(make_rim(afdmp, &afdmp->region, &afdmp->round_region));
     }
     if (charges) {
         TRY(make_mpm_part(afdmp, simulation, &afdmp->nest, &afdmp->nest_cut, &afdmp->nest_cut,
                           false));
         afdmp->nest_mpm = afdmp->nest.solver;
+        mpm_limit_by_nodes(afdmp->nest_mpm);
         mpm_particles(afdmp->nest_mpm)->name = afdmp_nest_name;
         TRY(make_rim(afdmp, &afdmp->nest_cut, &afdmp->round_nest));
         surround_nest(afdmp);

@@ -90,7 +90,7 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
     struct mpm *mpm = solver;
     mpm->parameters = mpm_settled(parameters, simulation);
     mpm->edge = mpm->parameters.cell;
-    TRY(error_join(mpm_note_bodies(mpm, simulation), mpm_find_planes(mpm, simulation)));
+    TRY(error_join(mpm_note_bodies(mpm, parameters, simulation), mpm_find_planes(mpm, simulation)));
     TRY(mpm_share_layers(mpm, simulation));
     start_layers(mpm, simulation);
     mpm_note_surfaces(mpm);
@@ -145,6 +145,7 @@ static void mpm_destroy(void *solver)
     free(mpm->half_size);
     free(mpm->gauge);
     free(mpm->reaction);
+    free(mpm->courant);
     free(mpm->layer_of_body);
     free(mpm->layer_at_rest);
     free(mpm->block);
@@ -194,17 +195,27 @@ double mpm_bytes(const void *parameters, int dimension)
            numbers * sizeof(double) / particles;
 }
 
-double mpm_step(const void *parameters, int dimension, const struct material *material,
-                const struct point *point, double diameter)
+/* The step of a particle in a case with a FLUID, or without. */
+static double step_of(const struct mpm_parameters *of, bool fluid, const struct material *material,
+                      const struct point *point, double diameter)
 {
-    const struct mpm_parameters *of = parameters;
-    (void)dimension;
     struct point at = *point;
     const double edge = isnan(of->cell) ? 2.0 * diameter : of->cell;
-    const double courant = !isnan(of->courant)               ? of->courant
-                           : material_has_strength(material) ? 0.5
-                                                             : 0.2;
-    return courant * edge / any_material_evaluate(material, &at).sound_long;
+    return mpm_courant(of, fluid) * edge / any_material_evaluate(material, &at).sound_long;
+}
+
+static double mpm_step(const void *parameters, int dimension, const struct material *material,
+                       const struct point *point, double diameter)
+{
+    (void)dimension;
+    return step_of(parameters, !material_has_strength(material), material, point, diameter);
+}
+
+double mpm_step_with_fluid(const void *parameters, int dimension, const struct material *material,
+                           const struct point *point, double diameter)
+{
+    (void)dimension;
+    return step_of(parameters, true, material, point, diameter);
 }
 
 void mpm_coarsen(void *parameters, double factor)

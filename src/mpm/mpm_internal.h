@@ -75,6 +75,7 @@ struct mpm {
     double *half_size; /* of the particles of each body, in cells */
     double *gauge;     /* of each material, Pa */
     double *reaction;  /* heat of each, J/kg */
+    double *courant;   /* of each, where the step is limited by nodes */
     double least_mass; /* of a node whose velocity counts in strain, kg */
     int64_t plane[3][2];
     bool has_plane[3][2]; /* node index of the low and the high wall across each axis */
@@ -89,6 +90,7 @@ struct mpm {
     int64_t rate_capacity;
     double limit, limit_before;        /* of this step, and of the one before; 0 for none yet */
     bool shocks;                       /* anywhere, on any rank */
+    bool limits_by_nodes;              /* the step, see limit.c */
     struct halo halo;                  /* of several ranks only */
     const struct mpm_outside *outside; /* NULL: nothing */
     struct loads loads;
@@ -120,6 +122,9 @@ BOLIDE_INLINE bool mpm_is_by_faces(const struct mpm_parameters *parameters)
 /* The step, as struct solver_class has it. */
 struct error *mpm_prepare(void *solver, struct simulation *simulation, struct limit *limit);
 struct error *mpm_advance(void *solver, struct simulation *simulation, double dt);
+
+/* Collective: the largest step, see limit.c. Nodes have their masses; the second field is lost. */
+struct limit mpm_limit(struct mpm *mpm, struct simulation *simulation);
 
 /* The nodes that the particles of a cell may reach. */
 BOLIDE_INLINE struct shape_window mpm_window(const struct mpm *mpm,
@@ -154,6 +159,9 @@ struct error *mpm_reserve_halo(struct mpm *mpm);
 void mpm_exchange(struct mpm *mpm, struct simulation *simulation, size_t field);
 void mpm_free_halo(struct mpm *mpm);
 
+/* `courant`, or its default, with a FLUID in the case or without. */
+double mpm_courant(const struct mpm_parameters *parameters, bool fluid);
+
 /* What the case leaves to the method. */
 struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
                                   const struct simulation *simulation);
@@ -176,8 +184,9 @@ void mpm_move_prescribed(const struct mpm *mpm, const struct simulation *simulat
 /* Books what the ambient pressure of fluids has done in the step of velocities. */
 void mpm_book_ambient(const struct mpm *mpm, struct simulation *simulation);
 
-/* What the particles of each body and material are to the grid. */
-struct error *mpm_note_bodies(struct mpm *mpm, const struct simulation *simulation);
+/* What the particles of each body and material are to the grid, by the parameters as GIVEN. */
+struct error *mpm_note_bodies(struct mpm *mpm, const struct mpm_parameters *given,
+                              const struct simulation *simulation);
 
 /* Books what gravity does in a step of DT: its impulse and half of its work at the BEGIN of the
  * step, the rest of its work once velocities are those of the end. */

@@ -34,6 +34,9 @@ struct mpm_outside {
 /* OUTSIDE must last; NULL: nothing is outside. */
 void mpm_surround(struct mpm *mpm, const struct mpm_outside *outside);
 
+/* From now on the speeds of sound that limit the step are means at nodes, see limit.c. */
+void mpm_limit_by_nodes(struct mpm *mpm);
+
 struct particles *mpm_particles(const struct mpm *mpm);
 /* Half the size of the particles of BODY, in cells, and how their shape functions fall off. */
 double mpm_half_size(const struct mpm *mpm, int body);

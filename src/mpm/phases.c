@@ -7,6 +7,8 @@
 
 void mpm_surround(struct mpm *mpm, const struct mpm_outside *outside) { mpm->outside = outside; }
 
+void mpm_limit_by_nodes(struct mpm *mpm) { mpm->limits_by_nodes = true; }
+
 struct particles *mpm_particles(const struct mpm *mpm) { return mpm->particles; }
 
 double mpm_half_size(const struct mpm *mpm, int body) { return mpm->half_size[body]; }

@@ -174,7 +174,8 @@ void mpm_judge(const void *parameters, const struct simulation *simulation,
     mpm.edge = mpm.parameters.cell;
     refuse(parameters, mpm.edge, simulation, &judgement->findings);
     findings_take(&judgement->findings, FINDING_WRONG,
-                  error_join(mpm_note_bodies(&mpm, simulation), mpm_find_planes(&mpm, simulation)));
+                  error_join(mpm_note_bodies(&mpm, parameters, simulation),
+                             mpm_find_planes(&mpm, simulation)));
     mpm_class.destroy(&mpm);
     judge_lattices(parameters, mpm.edge, &judgement->findings);
     judgement->energy_lost = mpm_energy_lost;

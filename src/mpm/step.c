@@ -53,6 +53,7 @@ struct transfer mpm_transfer_of(const struct mpm *mpm, const struct simulation *
                              .gauge = mpm->gauge,
                              .burnt = p->history[HISTORY_burnt],
                              .reaction = mpm->reaction,
+                             .courant = mpm->courant,
                              .ambient = fields.ambient};
 }
 
@@ -227,39 +228,10 @@ static struct error *sum_particles(struct mpm *mpm, struct simulation *simulatio
     return NULL;
 }
 
-/* What may limit the step. */
-enum { LIMIT_SOUND, LIMIT_VELOCITY };
-static const char *const limit_reasons[] = {"sound speed", "velocity"};
-
 /* A fast impact that starts with a whole step is felt one step too late, and what strikes first is
  * compressed too far. So no particle moves further than this fraction of a cell in the first step,
  * and a step is at most this factor longer than the one before. */
 static const double first_way = 0.1, step_growth = 1.2;
-
-/* Collective: dt = K min h/(c + max |u_i|), of equal ones that of the smallest id. */
-static struct limit limit_step(const struct mpm *mpm, const struct simulation *simulation)
-{
-    const struct particles *p = mpm->particles;
-    const double *sound = mpm_fields_of(mpm).sound_long;
-    struct ranked first = {(double)INFINITY, UINT64_MAX, LIMIT_SOUND};
-#pragma omp parallel num_threads(simulation->threads)
-    {
-        struct ranked own = first;
-#pragma omp for schedule(static)
-        for (int32_t i = 0; i < p->count; i++) {
-            const double *u = p->velocity[i];
-            const double fast = maximum(fabs(u[0]), maximum(fabs(u[1]), fabs(u[2])));
-            const struct ranked one = {mpm->parameters.courant * mpm->edge / (sound[i] + fast),
-                                       p->id[i], fast > sound[i] ? LIMIT_VELOCITY : LIMIT_SOUND};
-            if (ranked_before(&one, &own))
-                own = one;
-        }
-#pragma omp critical(bolide_mpm_limit)
-        if (ranked_before(&own, &first))
-            first = own;
-    }
-    return limit_of_ranks(simulation->ranks, first, limit_reasons);
-}
 
 /* Collective: of all particles; not zero. */
 static double largest_speed(const struct simulation *simulation, const struct particles *p)
@@ -279,7 +251,7 @@ struct error *mpm_prepare(void *solver, struct simulation *simulation, struct li
     TRY(refresh_grid(mpm, simulation));
     simulation_end_phase(simulation, PHASE_SHARED, "cell search");
     TRY(sum_particles(mpm, simulation));
-    *limit = limit_step(mpm, simulation);
+    *limit = mpm_limit(mpm, simulation);
     const double allowed = mpm->limit_before > 0.0
                                ? step_growth * mpm->limit_before
                                : first_way * mpm->edge / largest_speed(simulation, mpm->particles);

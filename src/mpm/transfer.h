@@ -40,6 +40,9 @@ enum { BACK_DIVERGENCE = 3, BACK_HEAT = 3, BACK_STRIDE = 4 };
  * material. */
 enum { HEAT_ENERGY = 0, HEAT_NUMBER = 1, HEAT_SQUARE = 2, HEAT_NUMBERS = 3 };
 
+/* And while the step limit is found, sums of m c^2, m K and m; the first is then c/K. */
+enum { SPEED_STIFFNESS = 0, SPEED_SOUND = 0, SPEED_COURANT = 1, SPEED_MASS = 2 };
+
 /* A patch of stresses has for each axis of a node the face between it and the next node along the
  * axis: what stresses push through it, and the part of it that particles fill. The second stands
  * in a field of its own too, by axis, and becomes there what the first is multiplied by. */
@@ -88,6 +91,7 @@ struct transfer {
     const double *gauge;     /* pressure that does not count, of each material */
     const double *burnt;     /* of each particle; NULL where nothing reacts */
     const double *reaction;  /* the heat that burning frees, of each material, J/kg */
+    const double *courant;   /* of each material */
     /* of each particle, the work of that pressure per mass; NULL where there is none */
     double *ambient;
 };
@@ -128,6 +132,13 @@ void transfer_again(const struct transfer *transfer, int32_t bin, const double *
  * nodes in both patches of BIN, and overwrites these. */
 void transfer_heat(const struct transfer *transfer, int32_t bin);
 void transfer_mix(const struct transfer *transfer, int32_t bin, double dt);
+
+/* Speeds of sound of nodes over their Courant numbers (limit.c). The first fills the patch of BIN
+ * in BACK with the sums SPEED_... of its particles. The second turns the sums of the nodes there
+ * into speeds, and gives the k-th particle of the bin in SOUND[k] the largest of the nodes that it
+ * reaches; seven numbers behind the last are written too. */
+void transfer_stiffness(const struct transfer *transfer, int32_t bin);
+void transfer_speed(const struct transfer *transfer, int32_t bin, double *sound);
 
 /* Particles of BIN take the heat that nodes have in the patch of BACK. */
 void transfer_warm(const struct transfer *transfer, int32_t bin);

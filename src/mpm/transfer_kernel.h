@@ -7,6 +7,7 @@
 #include "base/isa.h"
 #include "mpm/transfer_body.h"
 #include "mpm/transfer_mixing.h"
+#include "mpm/transfer_speed.h"
 
 #ifndef WINDOW
 #define WINDOW 4 /* for scripts/check-headers, which compiles each header alone */
@@ -69,6 +70,18 @@ KERNEL(transfer_heat, const struct transfer *t, int32_t bin){
 
 KERNEL(transfer_mix, const struct transfer *t, int32_t bin, double dt){
 #define CALL(dimension) bin_mix(t, kind_make(dimension, WINDOW, 1 << dimension), bin, dt)
+    BY_DIMENSION(t, CALL)
+#undef CALL
+}
+
+KERNEL(transfer_stiffness, const struct transfer *t, int32_t bin){
+#define CALL(dimension) bin_stiffness(t, kind_make(dimension, WINDOW, 1 << dimension), bin)
+    BY_DIMENSION(t, CALL)
+#undef CALL
+}
+
+KERNEL(transfer_speed, const struct transfer *t, int32_t bin, double *sound){
+#define CALL(dimension) bin_speed(t, kind_make(dimension, WINDOW, 1 << dimension), bin, sound)
     BY_DIMENSION(t, CALL)
 #undef CALL
 }

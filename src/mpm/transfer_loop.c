@@ -40,6 +40,11 @@ CHOOSE(transfer_heat, (const struct transfer *transfer, int32_t bin), (transfer,
 
 CHOOSE(transfer_mix, (const struct transfer *transfer, int32_t bin, double dt), (transfer, bin, dt))
 
+CHOOSE(transfer_stiffness, (const struct transfer *transfer, int32_t bin), (transfer, bin))
+
+CHOOSE(transfer_speed, (const struct transfer *transfer, int32_t bin, double *sound),
+       (transfer, bin, sound))
+
 CHOOSE(transfer_warm, (const struct transfer *transfer, int32_t bin), (transfer, bin))
 
 CHOOSE(transfer_gradient,
