@@ -64,6 +64,26 @@ BOLIDE_INLINE double firmness_of(const struct muscl_fields *f, int32_t i)
     return muscl_firmness(f->sph.sound_long[i], f->sph.sound_shear[i]);
 }
 
+/* The elastic energy of particle I, J/kg. */
+BOLIDE_INLINE double elastic_energy(const struct muscl_fields *f, int32_t i)
+{
+    const struct particles *p = f->sph.particles;
+    const double tiny = 1e-100, shear = square(f->sph.sound_shear[i]);
+    const double bulk = square(f->sph.sound_long[i]) - 4.0 / 3.0 * shear;
+    const double deviatoric = 0.25 * sym3_square(sym3_make(p->deviator[i])) / (shear + tiny);
+    return (deviatoric + 0.5 * square(p->pressure[i]) / (bulk + tiny)) / square(p->density[i]);
+}
+
+/* 1, and 0 for a particle that has given much more work than its elastic energy, and is colder than
+ * matter can be: a hundredth of the square of sound is more than the heat of metals at rest. Its cold
+ * would hold it in a tension in which a force of closure makes it colder still. */
+BOLIDE_INLINE double solvent(const struct muscl_fields *f, int32_t i)
+{
+    const double stored = elastic_energy(f, i), heat = f->sph.particles->energy[i] - stored;
+    const double most = stored + 0.01 * square(f->sph.sound_long[i]);
+    return minimum(1.0, maximum(0.0, 2.0 + 2.0 * heat / most));
+}
+
 /* Which part of its closure moves particle I: none of what has failed and of products, which part,
  * and little of a soft solid, whose lattice is held by its jumps of stress. */
 BOLIDE_INLINE double closes(const struct simulation *simulation, const struct muscl_fields *f,
@@ -73,7 +93,7 @@ BOLIDE_INLINE double closes(const struct simulation *simulation, const struct mu
     if (has_failed(simulation, p, i) || body_is_frozen(simulation, p->body[i]) ||
         material_burns(&simulation->problem->material[p->material[i]]))
         return 0.0;
-    return f->sph.sound_shear[i] > 0.0 ? firmness_of(f, i) : 1.0;
+    return solvent(f, i) * (f->sph.sound_shear[i] > 0.0 ? firmness_of(f, i) : 1.0);
 }
 
 /* Puts the components of TENSOR that a record has at TO. */
@@ -174,16 +194,6 @@ BOLIDE_INLINE double across_impedance(const struct muscl_fields *f, struct muscl
         curl = sqrt(square(g[7] - g[5]) + square(g[2] - g[6]) + square(g[3] - g[1]));
     }
     return -(divergence + tiny) / (divergence + curl + tiny);
-}
-
-/* The elastic energy of particle I, J/kg. */
-BOLIDE_INLINE double elastic_energy(const struct muscl_fields *f, int32_t i)
-{
-    const struct particles *p = f->sph.particles;
-    const double tiny = 1e-100, shear = square(f->sph.sound_shear[i]);
-    const double bulk = square(f->sph.sound_long[i]) - 4.0 / 3.0 * shear;
-    const double deviatoric = 0.25 * sym3_square(sym3_make(p->deviator[i])) / (shear + tiny);
-    return (deviatoric + 0.5 * square(p->pressure[i]) / (bulk + tiny)) / square(p->density[i]);
 }
 
 /* The second law for vibrations: what the gate leaves open for particle I, of ELASTIC, and its
