@@ -75,8 +75,8 @@ BOLIDE_INLINE double elastic_energy(const struct muscl_fields *f, int32_t i)
 }
 
 /* 1, and 0 for a particle that has given much more work than its elastic energy, and is colder than
- * matter can be: a hundredth of the square of sound is more than the heat of metals at rest. Its cold
- * would hold it in a tension in which a force of closure makes it colder still. */
+ * matter can be: a hundredth of the square of sound is more than the heat of metals at rest. Its
+ * cold would hold it in a tension in which a force of closure makes it colder still. */
 BOLIDE_INLINE double solvent(const struct muscl_fields *f, int32_t i)
 {
     const double stored = elastic_energy(f, i), heat = f->sph.particles->energy[i] - stored;
