@@ -4,10 +4,9 @@
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdint.h>
 
-/* Rows of pixels 0xRRGGBB from the top, as CAIRO_FORMAT_RGB24 has them: the upper byte is unused,
- * and rows are STRIDE bytes apart. */
+/* Rows of pixels 0xRRGGBB from the top, as CAIRO_FORMAT_RGB24 has them on machines of little
+ * endian: the upper byte is unused, and rows are STRIDE bytes apart. */
 struct png_image {
     int width, height;
     size_t stride;
