@@ -3,7 +3,7 @@
 #ifndef BOLIDE_MPM_TRANSFER_MIXING_H
 #define BOLIDE_MPM_TRANSFER_MIXING_H
 
-#include "mpm/transfer_body.h"
+#include "mpm/transfer_records.h"
 
 /* The energy of particle I with the heat that its products have set free: as energies count from
  * the explosive at rest, products are that much below it at the same temperature. */
@@ -12,34 +12,17 @@ BOLIDE_INLINE double heat_of(const struct transfer *t, int32_t i)
     return t->burnt ? t->energy[i] + t->burnt[i] * t->reaction[t->material[i]] : t->energy[i];
 }
 
+/* m e, m n and m n^2 of particle I, n the number of its material. */
+BOLIDE_INLINE vector4 heat_record(const struct transfer *t, int32_t i, double mass)
+{
+    const double number = (double)t->material[i];
+    const vector4 of = {mass * heat_of(t, i), mass * number, mass * square(number), 0.0};
+    return of;
+}
+
 BOLIDE_INLINE void bin_heat(const struct transfer *t, struct kind kind, int32_t bin)
 {
-    double *patch = grid_patch(t->grid, t->back, bin);
-    memset(patch, 0, (size_t)(t->grid->patch * BACK_STRIDE) * sizeof *patch);
-    const struct corner corner = corner_of(t, kind, bin);
-    for (int cell = 0; cell < BLOCK_CELLS; cell++) {
-        const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
-        struct chunk chunk;
-        ALIGNED double weight[NODES_MAX][LANES];
-        vector4 sum[NODES_MAX], record[LANES];
-        if (walk.count == 0)
-            continue;
-        vector4_clear(sum, nodes_of(kind));
-        for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
-            weigh(t, kind, &walk, begin, &chunk);
-            find_weights(kind, &chunk, weight);
-            for (int lane = 0; lane < kind.lanes; lane++) {
-                const int32_t i = chunk.index[lane];
-                const double mass = lane < chunk.count ? t->mass[i] : 0.0,
-                             number = (double)t->material[i];
-                const vector4 of = {mass * heat_of(t, i), mass * number, mass * square(number),
-                                    0.0};
-                record[lane] = of;
-            }
-            add_records4(kind, nodes_of(kind), weight, record, sum);
-        }
-        add_sums4(t, kind, walk.base, sum, patch);
-    }
+    bin_records(t, kind, bin, heat_record);
 }
 
 /* Turns the sums of a node into what particles take from it in a step of DT: its energy, and in

@@ -3,35 +3,18 @@
 #ifndef BOLIDE_MPM_TRANSFER_SPEED_H
 #define BOLIDE_MPM_TRANSFER_SPEED_H
 
-#include "mpm/transfer_body.h"
+#include "mpm/transfer_records.h"
+
+/* m c^2, m K and m of particle I. */
+BOLIDE_INLINE vector4 speed_record(const struct transfer *t, int32_t i, double mass)
+{
+    const vector4 of = {mass * square(t->sound[i]), mass * t->courant[t->material[i]], mass, 0.0};
+    return of;
+}
 
 BOLIDE_INLINE void bin_stiffness(const struct transfer *t, struct kind kind, int32_t bin)
 {
-    double *patch = grid_patch(t->grid, t->back, bin);
-    memset(patch, 0, (size_t)(t->grid->patch * BACK_STRIDE) * sizeof *patch);
-    const struct corner corner = corner_of(t, kind, bin);
-    for (int cell = 0; cell < BLOCK_CELLS; cell++) {
-        const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
-        struct chunk chunk;
-        ALIGNED double weight[NODES_MAX][LANES];
-        vector4 sum[NODES_MAX], record[LANES];
-        if (walk.count == 0)
-            continue;
-        vector4_clear(sum, nodes_of(kind));
-        for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
-            weigh(t, kind, &walk, begin, &chunk);
-            find_weights(kind, &chunk, weight);
-            for (int lane = 0; lane < kind.lanes; lane++) {
-                const int32_t i = chunk.index[lane];
-                const double mass = lane < chunk.count ? t->mass[i] : 0.0;
-                const vector4 of = {mass * square(t->sound[i]), mass * t->courant[t->material[i]],
-                                    mass, 0.0};
-                record[lane] = of;
-            }
-            add_records4(kind, nodes_of(kind), weight, record, sum);
-        }
-        add_sums4(t, kind, walk.base, sum, patch);
-    }
+    bin_records(t, kind, bin, speed_record);
 }
 
 BOLIDE_INLINE void bin_speed(const struct transfer *t, struct kind kind, int32_t bin, double *sound)
