@@ -15,8 +15,8 @@ import sys
 BOLIDE = os.environ["BOLIDE"]
 
 SPACING, SOUND = 0.5e-3, 5300.0
-# Of the speed that a run without a gap reaches, by shape; of oblique faces, 30 degrees to the
-# lattice, a regression bound, and of flat faces with MPM, which differ by 2.5 % at 1 km/s.
+# Of the speed that a run without a gap reaches, by shape. Two are regression bounds: that of oblique
+# faces, 30 degrees to the lattice, and that of flat faces with MPM, which differ by 2.5 % at 1 km/s.
 LIMITS = {"line": 0.01, "flat": 0.02, "disc": 0.02, "ball": 0.02, "shifted": 0.03, "finer": 0.03,
           "oblique": 0.08}
 FLAT_MPM = 0.03

@@ -14,7 +14,7 @@ BOLIDE_INLINE double pull_of(struct muscl_kind kind, const double *record, int s
     return sym3_trace(stress_from(kind.dimension, record + muscl_pull(kind) * step, step));
 }
 
-/* The distance of a pair along E; what fills up lanes may stand in the particle's own place. */
+/* The distance of a pair along E. A record that only fills up lanes may lie at the particle. */
 BOLIDE_INLINE double distance_of(struct vec3 x, struct vec3 e)
 {
     const double tiny = 1e-40;

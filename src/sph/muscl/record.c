@@ -74,9 +74,10 @@ BOLIDE_INLINE double elastic_energy(const struct muscl_fields *f, int32_t i)
     return (deviatoric + 0.5 * square(p->pressure[i]) / (bulk + tiny)) / square(p->density[i]);
 }
 
-/* 1, and 0 for a particle that has given much more work than its elastic energy, and is colder than
- * matter can be: a hundredth of the square of sound is more than the heat of metals at rest. Its
- * cold would hold it in a tension in which a force of closure makes it colder still. */
+/* The share of its closure that particle I can pay for: 1, and 0 where it has given much more work
+ * than its elastic energy and is colder than matter can be. A hundredth of the square of sound is
+ * more than the heat of metals at rest. Such cold makes tension, in which a force of closure would
+ * take more work from it. */
 BOLIDE_INLINE double solvent(const struct muscl_fields *f, int32_t i)
 {
     const double stored = elastic_energy(f, i), heat = f->sph.particles->energy[i] - stored;
