@@ -68,7 +68,7 @@ static const struct answer answers[] = {
      "An oblique impact is 3-D: rotate the projectile or its velocity, and put a mirror wall\n"
      "through the plane of flight, which cuts the bodies in half. Checks take the velocity that "
      "is\n"
-     "left: {largest_fragment: velocity.y, of: BODY}. There is no check of the angle itself.",
+     "left, {largest_fragment: velocity.y, of: BODY}, or its angle from an axis, angle.y.",
      "tasks/impact-on-a-plate.md"},
     {" crater hole plate ",
      "A projectile through a plate, with hole and debris cloud: a worked case is on the page\n"
@@ -315,6 +315,15 @@ static const struct answer answers[] = {
      "the README of each example. For a case of your own run two or three resolutions:\n"
      "bolide verify --convergence CASE gives the errors and an extrapolated value.",
      "accuracy.md"},
+    {" depth.over.time depth penetration.depth penetration.history ",
+     "A check measures the depth: {minimum: position.y, of: TARGET, axis: x, between: [R/4, R/2]}\n"
+     "of the floor of a hole, or `crater`. A probe records it over time: {check: depth, every:\n"
+     "1 us}.",
+     "tasks/long-rod.md"},
+    {" dust debris.mass ",
+     "Failed particles are dust: {fragments: {take: dust}, of: BODY} is its mass, `take: mass` with\n"
+     "`above` and `below` that of fragments; `output: {fragments: yes}` lists them.",
+     "case.md"},
     {" residual residual.velocity residual.length residual.rod ",
      "Residual velocity: {mean: velocity.y, of: BODY} at the end of the run; `bolide search`\n"
      "finds the ballistic limit. Length left of a rod: depth of the hole less the last position\n"

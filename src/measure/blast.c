@@ -97,4 +97,5 @@ static double expected(const struct measurement *measurement)
     return taken(&wave, blast->take);
 }
 
-const struct measure_class measure_blast = {.unit = unit, .measure = measure, .expected = expected};
+const struct measure_class measure_blast = {
+    .unit = unit, .measure = measure, .of_run = true, .expected = expected};

@@ -74,4 +74,4 @@ static struct error *measure(const struct measurement *measurement, double *valu
     return NULL;
 }
 
-const struct measure_class measure_conserved = {.unit = unit, .measure = measure};
+const struct measure_class measure_conserved = {.unit = unit, .measure = measure, .of_run = true};

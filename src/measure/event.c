@@ -44,4 +44,5 @@ static struct error *measure(const struct measurement *measurement, double *valu
     return NULL;
 }
 
-const struct measure_class measure_event = {.unit = unit, .measure = measure, .of_bodies = true};
+const struct measure_class measure_event = {
+    .unit = unit, .measure = measure, .of_bodies = true, .of_run = true};

@@ -64,6 +64,7 @@ struct measure_class {
      * front). */
     struct error *(*measure)(const struct measurement *measurement, double *value);
     bool of_bodies; /* of whole bodies: `between` has no meaning */
+    bool of_run;    /* of what a run did until now, not of a moment */
     /* What the measure wants to keep from time zero; may be NULL. */
     struct error *(*start)(const struct measurement *measurement, double *value);
     /* What the exact solution says that the value is, for a check that has `within` and no `is`;
@@ -141,8 +142,16 @@ struct measure_pieces {
 };
 
 struct measure_fragments {
-    struct quantity above; /* mass; NAN: any */
+    int take;                     /* enum of fragment_checks.c */
+    struct quantity above, below; /* mass; NAN: any */
     double link;
+};
+
+struct measure_interface {
+    int along;
+    char *with;
+    double radius; /* m */
+    struct vector_value center;
 };
 
 struct measure_largest_fragment {
@@ -242,6 +251,7 @@ double conserved_change(const struct simulation *simulation, const struct totals
     X(length, length, "length of the heaviest fragment of a body along an axis, debris aside")    \
     X(hole, hole, "diameter of the hole in a body about an axis; 0 if there is none")             \
     X(crater, crater, "depth, diameter or volume of a crater below the original face of a body")  \
+    X(interface, interface, "where two bodies meet on an axis: the floor of a hole around a rod") \
     X(bulge, bulge, "how far a body has been pushed out of one of its faces")                     \
     X(perforation, perforation,                                                                   \
       "hole, least thickness left, or mass that came through, of a wall that was struck")         \

@@ -68,12 +68,17 @@ struct probe_body {
     char *name;
 };
 
+struct probe_check {
+    char *name;
+};
+
 /* X(name, parameters, help): a key of a probe, its struct <parameters> and <parameters>_table, and
  * its probe_<name>, a struct probe_class. */
 #define PROBE_LIST(X)                                                                          \
     X(tracer, probe_tracer, "fields of one particle, which it follows")                        \
     X(gauge, probe_gauge, "fields at a fixed position: means over the particles near it")      \
     X(body, probe_body, "motion of a body: mass, centre, momentum, rotation, energy, extents") \
+    X(check, probe_check, "what a check measures, over time")                                  \
     X(front, measure_front, "position where a field first crosses a value, seen from one end")
 
 #define PROBE_DECLARE(name, parameters, help)           \

@@ -376,4 +376,4 @@ static struct error *measure(const struct measurement *measurement, double *valu
     return made ? NULL : out_of_memory_for("a check");
 }
 
-const struct measure_class measure_recorded = {.unit = unit, .measure = measure};
+const struct measure_class measure_recorded = {.unit = unit, .measure = measure, .of_run = true};

@@ -23,6 +23,10 @@ struct body_summary {
                              fastest sound */
 };
 
+/* Whether walls or periodic faces keep bodies from both sides of AXIS: they stand for infinite
+ * ones. */
+bool walls_on_both_sides(const struct simulation_case *input, int axis);
+
 /* The bounds of BODY's shape between the walls that cut it; about an axis those of its part at
  * x > 0, if it has one. */
 struct bounds body_bounds(const struct simulation_case *input, int body);

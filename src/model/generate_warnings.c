@@ -10,9 +10,7 @@
 /* Particles across a plate below which others get through it, and with which it hardly bends. */
 enum { THIN = 3 };
 
-/* Whether walls or periodic faces keep bodies from both sides of AXIS: they stand for infinite
- * ones. */
-static bool is_between_walls(const struct simulation_case *input, int axis)
+bool walls_on_both_sides(const struct simulation_case *input, int axis)
 {
     const struct place whole = place_whole(input);
     const struct face *face = whole.face[axis];
@@ -41,7 +39,7 @@ static void warn_of_thin(struct findings *findings, int body)
     const struct simulation_case *input = findings->input;
     assert(input->dimension <= 3);
     for (int axis = 0; axis < input->dimension && input->dimension > 1; axis++)
-        if (is_thin(input, body, axis) && !is_between_walls(input, axis) &&
+        if (is_thin(input, body, axis) && !walls_on_both_sides(input, axis) &&
             !all_are_thin(input, axis)) {
             const int64_t count = body_lattice(input, body).count[axis];
             {

@@ -10,6 +10,7 @@
 #include "model/generate.h"
 #include "model/loads.h"
 #include "run/blast_cells.h"
+#include "run/rod_cells.h"
 
 /* Measured pressures of Chapman and Jouguet scatter by about a tenth. */
 static const double PRESSURE_TOLERANCE = 0.2;
@@ -124,6 +125,7 @@ struct judgement judge_solver(const struct simulation *simulation)
         findings_take(findings, FINDING_NOTE,
                       error_new(ERROR_INPUT, "%s", error_message(input->notes, i)));
     blast_cells(findings);
+    rod_cells(findings);
     judge_explosives(findings);
     ignitions_judge(findings);
     loads_judge(findings);

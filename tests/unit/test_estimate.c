@@ -328,6 +328,50 @@ static void gases_of_too_unequal_particles_are_a_warning(void **state)
     assert_in_range(warned, 5, 25);
 }
 
+/* Rods of a metal that yields at 1 GPa and has 8000 kg/m^3: one erodes from 1000 m/s on. About an
+ * axis and at a mirror half of it is there. */
+static void a_rod_with_few_particles_across_is_a_warning(void **state)
+{
+    (void)state;
+    static const char *const mirrors[] = {
+        "", "boundaries: {m: {kind: symmetry, axis: x, at: 0 mm, side: low}}\n"};
+    struct dice dice = {67};
+    int warned = 0;
+    for (int round = 0; round < 100; round++) {
+        const bool space = round % 4 == 3, axial = round % 4 == 2, mirror = round % 4 == 1;
+        const int across = 1 + (int)dice_between(&dice, 0.0, 14.0); /* particles in the radius */
+        const double slender = dice_between(&dice, 2.0, 8.0),
+                     speed = dice_between(&dice, 500.0, 2000.0),
+                     width = axial || mirror ? 0.0 : 1.0;
+        const char *depth = space ? ", -1 mm" : "", *high = space ? ", 1 mm" : "";
+        char text[1200];
+        snprintf(text, sizeof text,
+                 "format: 1\ndimension: %d\n%sresolution: %.17g mm\nsolver: mpm\n%s"
+                 "materials: {metal: {eos: {barotropic: {density: 8000 kg/m^3, bulk_modulus: 1e11 "
+                 "Pa}},\n  strength: {perfect-plastic: {shear_modulus: 80 GPa, yield: 1 GPa}}}}\n"
+                 "run: {until: 1 us}\nbodies:\n"
+                 "  rod: {material: metal, velocity: [0 m/s, %.17g m/s%s],\n"
+                 "    box: {from: [-%g mm, %.17g mm%s], to: [1 mm, 0 mm%s]}}\n",
+                 space ? 3 : 2, axial ? "geometry: axisymmetric\n" : "", 1.0 / across,
+                 mirrors[mirror], speed, space ? ", 0 m/s" : "", width, -2.0 * slender, depth,
+                 high);
+        struct simulation_case *input;
+        assert_success(read_text(text, "", &input));
+        struct findings findings;
+        judged(input, &findings);
+        const bool found = findings_count(&findings, FINDING_COARSE) &&
+                           strstr(findings_text(&findings, FINDING_COARSE, 0), "bodies.rod: a rod");
+        const bool near = fabs(speed - 1000.0) < 1.0 || fabs(slender - 4.0) < 0.1;
+        if (!near && found != (across < 10 && slender > 4.0 && speed > 1000.0))
+            fail_msg("round %d: %d across, %g long, %g m/s, %s", round, across, slender, speed,
+                     found ? "a warning" : "no warning");
+        warned += found;
+        findings_free(&findings);
+        case_free(input);
+    }
+    assert_in_range(warned, 10, 60);
+}
+
 static void a_plate_of_less_than_three_particles_is_a_warning(void **state)
 {
     (void)state;
@@ -416,6 +460,7 @@ int main(void)
         cmocka_unit_test(a_shape_or_lattice_that_cannot_be_is_told_in_its_place),
         cmocka_unit_test(a_body_that_is_cut_unless_in_half_is_a_warning),
         cmocka_unit_test(a_shape_of_another_volume_than_its_particles_is_a_warning),
+        cmocka_unit_test(a_rod_with_few_particles_across_is_a_warning),
         cmocka_unit_test(a_plate_of_less_than_three_particles_is_a_warning),
         cmocka_unit_test(gases_of_too_unequal_particles_are_a_warning),
         cmocka_unit_test(a_start_below_0_k_is_a_warning),

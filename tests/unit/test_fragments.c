@@ -96,18 +96,28 @@ static void failed_particles_part_a_body(void **state)
                 "  length: {length: x, of: bar, at_least: 0 m}\n"
                 "  speed: {largest_fragment: speed, of: bar, at_most: 1 m/s}\n"
                 "  along: {largest_fragment: velocity.x, of: bar, at_most: 1 m/s}\n"
-                "  number: {largest_fragment: particles, of: bar, at_most: 100}\n");
+                "  number: {largest_fragment: particles, of: bar, at_most: 100}\n"
+                "  light: {fragments: {below: 50 mg/m}, of: bar, at_most: 3}\n"
+                "  mass: {fragments: {take: mass, above: 40 mg/m}, of: bar, at_most: 1 kg/m}\n"
+                "  dust: {fragments: {take: dust}, of: bar, at_most: 1 kg/m}\n"
+                "  angle: {largest_fragment: angle.y, of: bar, at_most: 60 deg}\n");
     struct particles *p = particles_of(&s.simulation);
     break_at(&s, 4.0);
     break_at(&s, 15.0);
-    for (int32_t i = 0; i < p->count; i++)
+    for (int32_t i = 0; i < p->count; i++) {
         p->velocity[i][0] = p->position[i][0] < 10e-3 ? -3.0 : -1.0;
+        p->velocity[i][1] = 2.0 / sqrt(3.0);
+    }
     assert_float_equal(stage_value(&s, 0), 3.0, 0.0);
     assert_float_equal(stage_value(&s, 1), 1.0, 0.0); /* failed particles connect pieces */
     assert_float_equal(stage_value(&s, 2), 10e-3, 1e-12);
-    assert_float_equal(stage_value(&s, 3), 2.0, 1e-12);
+    assert_float_equal(stage_value(&s, 3), 4.0 / sqrt(3.0), 1e-12);
     assert_float_equal(stage_value(&s, 4), -2.0, 1e-12);
     assert_float_equal(stage_value(&s, 5), 40.0, 0.0);
+    assert_float_equal(stage_value(&s, 6), 2.0, 0.0);
+    assert_float_equal(stage_value(&s, 7), 80e-6, 1e-15);
+    assert_float_equal(stage_value(&s, 8), 16e-6, 1e-15);
+    assert_float_equal(stage_value(&s, 9), M_PI / 3.0, 1e-12);
     stage_close(&s);
 }
 
@@ -310,6 +320,7 @@ static void mistakes_are_told_before_the_run(void **state)
         const char *check, *message;
     } cases[] = {
         {"  it: {fragments: {above: 1 kg}, at_most: 1}", "`above`: the mass of a fragment is in"},
+        {"  it: {fragments: {take: dust, above: 1 kg/m}, at_most: 1 kg/m}", "no meaning for dust"},
         {"  it: {fragments: {}, between: [0 m, 1 m], at_most: 1}", "`between` has no meaning"},
         {"  it: {largest_fragment: velocity.z, at_most: 1 m/s}", "the case has 2 dimensions"},
         {"  it: {largest_fragment: mass, at_most: 1 kg}", "`at_most` is in"},

@@ -346,6 +346,38 @@ static void a_zone_about_the_axis_of_symmetry(void **state)
     }
 }
 
+/* Two plates meet at 4 mm; then a row of each changes its place with one of the other, or both
+ * planes of particles move apart. */
+static void an_interface_balances_what_is_beyond_it(void **state)
+{
+    (void)state;
+    static const char bodies[] =
+        ROUND "bodies:\n"
+              "  lower: {material: metal, box: {from: [0 mm, 0 mm], to: [6 mm, 4 mm]}}\n"
+              "  upper: {material: metal, box: {from: [0 mm, 4 mm], to: [6 mm, 9 mm]}}\n" CHECKS;
+    static const char checks[] =
+        "  up: {interface: {along: y, with: lower, radius: 3 mm}, of: upper, at_least: 0 m}\n"
+        "  down: {interface: {along: y, with: upper, radius: 3 mm}, of: lower, at_least: 0 m}\n";
+    struct stage s;
+    stage_begin(&s, bodies, checks);
+    assert_float_equal(stage_value(&s, 0), 4e-3, 1e-9);
+    assert_float_equal(stage_value(&s, 1), 4e-3, 1e-9);
+    struct particles *p = particles_of(&s.simulation);
+    for (int32_t i = 0; i < p->count; i++) {
+        double *y = &p->position[i][1];
+        *y = fabs(*y - 2.5e-3) < 1e-6 ? 6.5e-3 : fabs(*y - 6.5e-3) < 1e-6 ? 2.5e-3 : *y;
+    }
+    assert_float_equal(stage_value(&s, 0), 4e-3, 1e-9);
+    for (int32_t i = 0; i < p->count; i++)
+        p->position[i][1] += 1e-3;
+    assert_float_equal(stage_value(&s, 0), 5e-3, 1e-9);
+    assert_float_equal(stage_value(&s, 1), 5e-3, 1e-9);
+    for (int32_t i = 0; i < p->count; i++)
+        p->position[i][0] += 10e-3;
+    assert_true(isnan(stage_value(&s, 0)));
+    stage_close(&s);
+}
+
 static void mistakes_are_told_before_the_run(void **state)
 {
     (void)state;
@@ -367,6 +399,8 @@ static void mistakes_are_told_before_the_run(void **state)
          "at_most: 1 m}",
          "`at_most` is in m"},
         {disc, "  it: {hole: x, of: plate, at_most: 1 m}", "`along` must be y"},
+        {disc, "  it: {interface: {along: y, with: rod, radius: 1 m}, of: plate, at_most: 1 m}",
+         "`with`: there is no body \"rod\""},
         {disc, "  it: {hole: {along: y, center: [2 mm, 0 mm]}, of: plate, at_most: 1 m}",
          "the axis of symmetry is at x = 0"},
         {disc, "  it: {zone: {field: pressure, value: 1, along: y, side: low}, of: plate}",
@@ -404,6 +438,7 @@ int main(void)
         cmocka_unit_test(a_zone_has_the_size_of_its_circle),
         cmocka_unit_test(a_zone_has_the_shape_of_its_ellipse),
         cmocka_unit_test(a_zone_about_the_axis_of_symmetry),
+        cmocka_unit_test(an_interface_balances_what_is_beyond_it),
         cmocka_unit_test(mistakes_are_told_before_the_run),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
