@@ -103,6 +103,7 @@ BOLIDE_INLINE void points_load(const struct point_loop *loop, const int32_t *lis
         batch_load_history(b, k, loop->history, i);
         b->viscous_pressure[k] = loop->viscosity[i];
         b->sound_long[k] = loop->sound[i];
+        b->length[k] = 2.0 * loop->half_size[loop->body[i]] * loop->edge;
     }
 }
 

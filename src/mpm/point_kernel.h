@@ -21,6 +21,8 @@ struct point_loop {
     const double *rate;
     size_t rate_stride;
     double dt, time, edge; /* time: at the end of the step */
+    const uint16_t *body;
+    const double *half_size; /* of a particle, by body, in cells */
     double viscosity_quadratic, viscosity_unresolved;
     double viscosity_linear, viscosity_shock; /* and how much more of it in shocks in solids */
     bool jaumann;

@@ -56,6 +56,8 @@ static struct point_loop loop_of(const struct mpm *mpm, const struct simulation 
                               .dt = dt,
                               .time = simulation->time + dt,
                               .edge = mpm->edge,
+                              .body = p->body,
+                              .half_size = mpm->half_size,
                               .viscosity_quadratic = mpm->parameters.viscosity_quadratic,
                               .viscosity_linear = isnan(linear) ? 0.06 : linear,
                               .viscosity_shock = isnan(linear) ? 0.14 : 0.0,

@@ -247,6 +247,7 @@ static void step_batch(struct particles *p, const struct advance *step, struct p
         b->new_density[k] = b->new_density[from];
         b->energy[k] = b->energy[from];
         b->viscous_pressure[k] = 0.0;
+        b->length[k] = f->diameter[i];
         batch_keep_tensor(b->deviator, k, sym3_make(p->deviator[i]));
         batch_keep_tensor(b->strain_rate, k, batch_tensor(b->strain_rate, from));
         for (int c = 0; c < 3; c++)

@@ -136,6 +136,35 @@ static void johnson_cook_damage_adds_up(void **state)
     assert_true(point.history[HISTORY_damage] == 1.0);
 }
 
+/* Damage that a strain of 0.1 adds to a point of 4 mm with a band of BAND; TENSION: its mean stress
+ * over the Mises stress. */
+static double damage_of(double band, double tension)
+{
+    struct failure_johnson_cook failure = copper;
+    failure.band = band;
+    struct failing point = {.deviator = {200e6, -100e6, -100e6, 0.0, 0.0, 0.0},
+                            .pressure = -tension * 300e6,
+                            .flow = 0.1,
+                            .rate = 1.0,
+                            .relative = 1.0,
+                            .length = 4e-3};
+    return failure_johnson_cook(&failure, &point, 0.0);
+}
+
+static void damage_in_shear_bands_knows_the_size_of_particles(void **state)
+{
+    (void)state;
+    const double none = (double)NAN, shear[] = {-1.0, 0.0};
+    for (size_t k = 0; k < COUNT_OF(shear); k++) {
+        assert_close(damage_of(1e-3, shear[k]), 4.0 * damage_of(none, shear[k]), 1e-12);
+        assert_close(damage_of(4e-3, shear[k]), damage_of(none, shear[k]), 1e-12);
+        assert_close(damage_of(9e-3, shear[k]), damage_of(none, shear[k]), 1e-12);
+    }
+    assert_close(damage_of(1e-3, 1.0 / 6.0), 2.5 * damage_of(none, 1.0 / 6.0), 1e-12);
+    assert_close(damage_of(1e-3, 1.0 / 3.0), damage_of(none, 1.0 / 3.0), 1e-12);
+    assert_close(damage_of(1e-3, 2.0), damage_of(none, 2.0), 1e-12);
+}
+
 static void cockcroft_and_latham_add_work(void **state)
 {
     (void)state;
@@ -301,6 +330,7 @@ int main(void)
         cmocka_unit_test(voids_close_before_failed_material_resists),
         cmocka_unit_test(johnson_cook_failure_strains),
         cmocka_unit_test(johnson_cook_damage_adds_up),
+        cmocka_unit_test(damage_in_shear_bands_knows_the_size_of_particles),
         cmocka_unit_test(cockcroft_and_latham_add_work),
         cmocka_unit_test(grady_takes_the_weaker_of_cracks_and_holes),
         cmocka_unit_test(fluids_and_models_that_fail_by_themselves_take_none),

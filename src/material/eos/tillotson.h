@@ -9,9 +9,10 @@
  * and the pressure is not below -tension, where that is given: the material keeps this tension as
  * it expands further, and has pressure again once it is compressed to the same density.
  *
- * By default w does not fall below 1, where energies below zero would let it vanish, and c^2 is
- * held at a hundredth of A/rho_0 times eta in tension beyond its maximum, A^2/(4 B) at no energy.
- * Where p > 0 the form has a sound speed everywhere.
+ * By default an energy below zero, which no cold matter has at any density, counts as e/(1 - e/e_1),
+ * e_1 = e_0/5, and w is 1 there: else matter under tension that is compressed would cool without
+ * bound. c^2 is held at a hundredth of A/rho_0 times eta in tension beyond its maximum, A^2/(4 B) at
+ * no energy. Where p > 0 the form has a sound speed everywhere.
  *
  * Source: Tillotson, General Atomic report GA-3216 (1962); in this form Melosh, Impact Cratering
  * (1989), II.4. */
@@ -63,14 +64,15 @@ BOLIDE_INLINE struct eos_value eos_tillotson_condensed(const struct eos_tillotso
 {
     struct eos_value value;
     double eta = density / t->density, mu = eta - 1.0;
-    const double warm = t->form == EOS_SOURCE ? energy : maximum(energy, 0.0);
-    double ratio = warm / (t->energy * square(eta)), w = 1.0 + ratio;
+    const double below = t->form == EOS_SOURCE ? 0.0 : minimum(energy, 0.0);
+    const double share = 1.0 / (1.0 - below / (0.2 * t->energy)), warm = energy * share;
+    double ratio = (energy - below) / (t->energy * square(eta)), w = 1.0 + ratio;
     value.pressure =
-        (t->a + t->b / w) * density * energy + (t->bulk_modulus + t->second_modulus * mu) * mu;
+        (t->a + t->b / w) * density * warm + (t->bulk_modulus + t->second_modulus * mu) * mu;
     /* dw/drho = -2 ratio/rho, dw/de = ratio/e */
-    value.dp_drho = (t->a + t->b / w + 2.0 * t->b * ratio / square(w)) * energy +
+    value.dp_drho = (t->a + t->b / w + 2.0 * t->b * ratio / square(w)) * warm +
                     (t->bulk_modulus + 2.0 * t->second_modulus * mu) / t->density;
-    value.dp_de = (t->a + t->b / square(w)) * density;
+    value.dp_de = (t->a + t->b / square(w)) * density * square(share);
     value.status = 0;
     return value;
 }

@@ -14,6 +14,7 @@ struct failure_cockcroft_latham {
     FAILURE_MEMBERS
     double work;  /* W_c, Pa */
     double spall; /* Pa; NAN: none */
+    double band;  /* m; NAN: none */
 };
 
 #define FAILURE_cockcroft_latham_NAME "cockcroft-latham"
@@ -22,12 +23,14 @@ struct failure_cockcroft_latham {
     NUMBER(T, work, "Pa", REQUIRED, POSITIVE, "W_c: work per volume at failure") \
     NUMBER(T, spall, "Pa", OPTIONAL, POSITIVE,                                   \
            "mean tension at which it fails at once; default: none")              \
-    FAILURE_COMMON(T)
+    FAILURE_BAND(T) FAILURE_COMMON(T)
 
 BOLIDE_INLINE double failure_cockcroft_latham(const struct failure_cockcroft_latham *failure,
                                               const struct failing *point, double damage)
 {
-    const double grown = damage + maximum(failing_largest_stress(point), 0.0) * point->flow /
+    const double triaxiality = -point->pressure / maximum(sym3_mises(point->deviator), 1e-100);
+    const double flow = point->flow * failing_haste(point, failure->band, triaxiality);
+    const double grown = damage + maximum(failing_largest_stress(point), 0.0) * flow /
                                       (failure->work * point->relative);
     return -point->pressure >= failure->spall * point->relative
                ? 1.0

@@ -18,6 +18,7 @@ struct failing {
     double stretching;    /* trace of the strain rate, 1/s */
     double homologous;    /* T* of the strength model; zero where it has none */
     double relative;      /* its strength over the characteristic one of its material */
+    double length;        /* its size, m */
 };
 
 /* What every model has: the first members of its struct, and their rows. */
@@ -41,6 +42,13 @@ struct failing {
            "are weaker; default: the volume of each particle")                                  \
     COUNT(T, seed, "1", "seed of the random strengths: another seed is another specimen")
 
+/* Of models whose damage grows with plastic strain. */
+#define FAILURE_BAND(T)                                                                          \
+    NUMBER(T, band, "m", OPTIONAL, POSITIVE,                                                     \
+           "particle size for which failure strains are right in shear bands; where particles "  \
+           "are larger, damage in shear grows faster by that ratio, since a band is as wide as " \
+           "a few particles and its strain the smaller; default: it does not depend on the size")
+
 #define FAILURE_COMMON(T) FAILURE_FRICTION(T) FAILURE_SCATTER(T)
 
 struct failure_traits {
@@ -56,6 +64,17 @@ BOLIDE_INLINE struct failure_traits failure_default_traits(void)
 {
     struct failure_traits traits = {false, false, false, false, NULL, NULL};
     return traits;
+}
+
+/* How much faster damage grows at POINT than plastic strain says, with a band of BAND (NAN: none). A
+ * shear band is a few particles wide whatever their size, so that its strain is in proportion to
+ * BAND/size. Full where the mean stress is not tension, none from simple tension (a third of the
+ * Mises stress) on, where matter thins as a whole. */
+BOLIDE_INLINE double failing_haste(const struct failing *point, double band, double triaxiality)
+{
+    const double larger = maximum(point->length / band, 1.0);
+    const double sheared = 1.0 - minimum(maximum(3.0 * triaxiality, 0.0), 1.0);
+    return band > 0.0 ? 1.0 + (larger - 1.0) * sheared : 1.0;
 }
 
 /* The largest principal stress, Pa, positive in tension. */

@@ -20,6 +20,7 @@ struct failure_johnson_cook {
     double rate;         /* rate_0, 1/s */
     double least_strain; /* of eps_f */
     double spall;        /* Pa; NAN: none */
+    double band;         /* m; NAN: none */
 };
 
 #define FAILURE_johnson_cook_NAME "johnson-cook"
@@ -36,7 +37,7 @@ struct failure_johnson_cook {
            "least failure strain, where the formula gives less")                                \
     NUMBER(T, spall, "Pa", OPTIONAL, POSITIVE,                                                  \
            "mean tension at which it fails at once; default: none")                             \
-    FAILURE_COMMON(T)
+    FAILURE_BAND(T) FAILURE_COMMON(T)
 
 /* eps_f at the mean stress over Mises stress TRIAXIALITY, RATE (1/s) and T* HOMOLOGOUS. */
 BOLIDE_INLINE double johnson_cook_failure_strain(const struct failure_johnson_cook *failure,
@@ -53,10 +54,11 @@ BOLIDE_INLINE double failure_johnson_cook(const struct failure_johnson_cook *fai
                                           const struct failing *point, double damage)
 {
     const double mises = maximum(sym3_mises(point->deviator), 1e-100);
-    const double strain = johnson_cook_failure_strain(
-        failure, maximum(-point->pressure / mises, -20.0), point->rate, point->homologous);
-    const double grown =
-        damage + (point->flow > 0.0 ? point->flow / (strain * point->relative) : 0.0);
+    const double triaxiality = maximum(-point->pressure / mises, -20.0);
+    const double strain =
+        johnson_cook_failure_strain(failure, triaxiality, point->rate, point->homologous);
+    const double flow = point->flow * failing_haste(point, failure->band, triaxiality);
+    const double grown = damage + (flow > 0.0 ? flow / (strain * point->relative) : 0.0);
     return -point->pressure >= failure->spall * point->relative
                ? 1.0
                : grown; /* not where there is none: NAN */

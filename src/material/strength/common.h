@@ -48,6 +48,7 @@ struct batch {
     double strain_rate[6][BATCH], spin[3][BATCH], deviator[6][BATCH], new_deviator[6][BATCH];
     double plastic_strain[BATCH], plastic_heating[BATCH];
     double damage[BATCH], void_ratio[BATCH], scatter[BATCH]; /* where the material fails */
+    double length[BATCH];                                    /* that, too */
     double sound_long[BATCH];                                /* after; zero: there is none */
 };
 
@@ -98,7 +99,8 @@ BOLIDE_INLINE struct motion batch_motion(const struct batch *b, int k)
                             .density = b->new_density[k],
                             .strain_rate = batch_tensor(b->strain_rate, k),
                             .spin = vec3_make(b->spin[0][k], b->spin[1][k], b->spin[2][k]),
-                            .viscous_pressure = b->viscous_pressure[k]};
+                            .viscous_pressure = b->viscous_pressure[k],
+                            .length = b->length[k]};
     return motion;
 }
 
