@@ -80,6 +80,20 @@ static void derivatives_are_those_of_the_pressure(void **state)
         }
 }
 
+/* However cold matter is said to be, compressed it has pressure at last. */
+static void no_energy_makes_tension_without_bound(void **state)
+{
+    (void)state;
+    const double cold = 0.2 * 75.2e9 + 0.04 * 65e9, most = (0.5 + 1.63) * 3240.0 * 1e6;
+    for (double energy = -1e3; energy > -1e12; energy *= 10.0) {
+        assert_true(pressure(3240.0, energy) > cold - most);
+        assert_true(pressure(3240.0, energy) < pressure(3240.0, 0.1 * energy));
+    }
+    struct eos_tillotson source = aluminium;
+    source.form = EOS_SOURCE;
+    assert_true(eos_tillotson(&source, 3240.0, -1e9, NULL).pressure < -1e11);
+}
+
 static void it_bears_no_more_tension_than_it_is_given(void **state)
 {
     (void)state;
@@ -100,6 +114,7 @@ int main(void)
         cmocka_unit_test(condensed_and_vapour_values_are_those_worked_out_by_hand),
         cmocka_unit_test(regions_meet_without_a_jump),
         cmocka_unit_test(derivatives_are_those_of_the_pressure),
+        cmocka_unit_test(no_energy_makes_tension_without_bound),
         cmocka_unit_test(it_bears_no_more_tension_than_it_is_given),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
