@@ -173,15 +173,24 @@ void grid_field_free(struct grid_field *field)
     *field = (struct grid_field){.stride = field->stride};
 }
 
-/* Where the row of nodes along the last axis at A, B of an overlap begins, in a box of SIDE nodes
- * along each axis. */
-static inline size_t row_at(int dimension, int side, const int from[3], int a, int b)
+/* Adds LENGTH numbers of a row of nodes to those of another, four at a time while there are. */
+static inline void add_row(double *restrict to, const double *restrict from, int length)
 {
-    size_t row = 0;
-    const int at[3] = {from[0] + a, from[1] + b, from[2]};
+    int k = 0;
+    for (; k + 4 <= length; k += 4)
+        for (int c = 0; c < 4; c++)
+            to[k + c] += from[k + c];
+    for (; k < length; k++)
+        to[k] += from[k];
+}
+
+/* Where a node is in a box of SIDE nodes along each axis. */
+static inline size_t place_at(int dimension, int side, const int at[3])
+{
+    size_t place = 0;
     for (int axis = 0; axis < dimension; axis++)
-        row = row * (size_t)side + (size_t)at[axis];
-    return row;
+        place = place * (size_t)side + (size_t)at[axis];
+    return place;
 }
 
 /* Adds the overlap of a patch to a block's nodes, or copies it from these. */
@@ -189,21 +198,23 @@ static inline void meet(const struct grid *grid, int code, double *node, double 
                         bool spread)
 {
     const int dimension = grid->dimension, cells = block_cells(dimension);
-    const struct grid_overlap o = grid->overlap[code];
+    const struct grid_overlap *o = &grid->overlap[code];
     assert(dimension >= 1 && dimension <= 3);
     /* rows run along the last axis; the axes before it are A and B */
-    const int rows_a = dimension > 1 ? o.count[0] : 1, rows_b = dimension > 2 ? o.count[1] : 1;
-    const int length = o.count[dimension - 1] * stride;
-    for (int a = 0; a < rows_a; a++)
-        for (int b = 0; b < rows_b; b++) {
-            double *own = node + row_at(dimension, cells, o.from, a, b) * (size_t)stride;
-            double *other = patch + row_at(dimension, grid->side, o.at, a, b) * (size_t)stride;
+    const int rows_a = dimension > 1 ? o->count[0] : 1, rows_b = dimension > 2 ? o->count[1] : 1;
+    const int length = o->count[dimension - 1] * stride, in_block = cells * stride,
+              in_patch = grid->side * stride;
+    node += place_at(dimension, cells, o->from) * (size_t)stride;
+    patch += place_at(dimension, grid->side, o->at) * (size_t)stride;
+    for (int a = 0; a < rows_a; a++) {
+        double *own = node + a * in_block * (dimension > 2 ? cells : 1);
+        double *other = patch + a * in_patch * (dimension > 2 ? grid->side : 1);
+        for (int b = 0; b < rows_b; b++, own += in_block, other += in_patch)
             if (spread)
                 memcpy(other, own, (size_t)length * sizeof *own);
             else
-                for (int k = 0; k < length; k++)
-                    own[k] += other[k];
-        }
+                add_row(own, other, length);
+    }
 }
 
 void grid_reduce(const struct grid *grid, struct grid_field *field, int32_t block)
