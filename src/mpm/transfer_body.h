@@ -107,38 +107,66 @@ BOLIDE_INLINE void add_node_record(const struct transfer *t, struct kind kind,
 }
 
 /* Adds the sums of a cell to its nodes in the patch. */
-BOLIDE_INLINE void add_sums8(const struct transfer *t, struct kind kind, size_t base,
-                             const vector8 *sum, double *patch)
+BOLIDE_INLINE void add_sums8(struct kind kind, size_t base, const vector8 *sum, double *patch)
 {
     FOR_NODES (kind, a, b, c)
-        vector8_add_to(patch + node_of(t, kind, base, a, b, c) * NODE_STRIDE, *sum++);
+        vector8_add_to(patch + node_of(kind, base, a, b, c) * NODE_STRIDE, *sum++);
 }
 
-BOLIDE_INLINE void add_sums4(const struct transfer *t, struct kind kind, size_t base,
-                             const vector4 *sum, double *patch)
+BOLIDE_INLINE void add_sums4(struct kind kind, size_t base, const vector4 *sum, double *patch)
 {
     FOR_NODES (kind, a, b, c)
-        vector4_add_to(patch + node_of(t, kind, base, a, b, c) * BACK_STRIDE, *sum++);
+        vector4_add_to(patch + node_of(kind, base, a, b, c) * BACK_STRIDE, *sum++);
 }
 
-/* Adds the contributions of the particles of a chunk to the sums of their nodes, without forces
- * where these act through faces. */
+/* What the particles of a cell have for nodes where forces act through faces: mass and momentum;
+ * and behind three zeros what they mix, where any does. */
+struct node_sums {
+    vector4 plain[NODES_MAX], mixing[NODES_MAX];
+    bool mixes;
+};
+
+/* Adds the contributions of the particles of a chunk to the sums of their nodes, without forces. */
 BOLIDE_INLINE void scatter_nodes(const struct transfer *t, struct kind kind,
                                  const struct chunk *chunk, const double (*weight)[LANES],
-                                 vector8 *sum)
+                                 struct node_sums *sums)
 {
-    vector8 record[LANES];
+    vector4 plain[LANES], mixing[LANES];
+    bool mixes = false;
     for (int lane = 0; lane < kind.lanes; lane++) {
         const int32_t i = chunk->index[lane];
-        const double mass = lane < chunk->count ? t->mass[i] : 0.0, *u = t->velocity[i],
-                     mixing = t->mixing > 0.0 ? mass * mixing_rate(t, i) : 0.0;
-        const vector8 of = {mass, mass * u[0], mass * u[1], mass * u[2], 0.0, 0.0, 0.0, mixing};
-        record[lane] = of;
+        const double mass = lane < chunk->count ? t->mass[i] : 0.0, *u = t->velocity[i];
+        const vector4 of = {mass, mass * u[0], mass * u[1], mass * u[2]};
+        plain[lane] = of;
+        mixes |= t->mixing > 0.0 && t->shock[i] != 0.0;
     }
-    add_records8(kind, nodes_of(kind), weight, record, sum);
+    add_records4(kind, nodes_of(kind), weight, plain, sums->plain);
+    if (!mixes)
+        return;
+    for (int lane = 0; lane < kind.lanes; lane++) {
+        const int32_t i = chunk->index[lane];
+        const vector4 of = {0.0, 0.0, 0.0,
+                            lane < chunk->count ? t->mass[i] * mixing_rate(t, i) : 0.0};
+        mixing[lane] = of;
+    }
+    sums->mixes = true;
+    add_records4(kind, nodes_of(kind), weight, mixing, sums->mixing);
 }
 
-/* The same with forces. */
+BOLIDE_INLINE void add_node_sums(struct kind kind, size_t base, const struct node_sums *sums,
+                                 double *patch)
+{
+    const vector4 *plain = sums->plain, *mixing = sums->mixing;
+    FOR_NODES (kind, a, b, c)
+        vector4_add_to(patch + node_of(kind, base, a, b, c) * NODE_STRIDE, *plain++);
+    if (!sums->mixes)
+        return;
+    FOR_NODES (kind, a, b, c)
+        vector4_add_to(patch + node_of(kind, base, a, b, c) * NODE_STRIDE + NODE_STRIDE / 2,
+                       *mixing++);
+}
+
+/* The same with forces, to sums of nodes. */
 BOLIDE_INLINE void scatter_forces(const struct transfer *t, struct kind kind,
                                   const struct chunk *chunk, struct node_record *record,
                                   vector8 *sum)
@@ -149,43 +177,72 @@ BOLIDE_INLINE void scatter_forces(const struct transfer *t, struct kind kind,
         add_node_record(t, kind, chunk, lane, &record[lane], sum);
 }
 
+/* Adds the affine contributions of the particles of a chunk to the momenta of a patch. */
+BOLIDE_INLINE void scatter_affine(const struct transfer *t, struct kind kind,
+                                  const struct chunk *chunk, size_t base, double *patch)
+{
+    for (int lane = 0; lane < chunk->count && t->affine; lane++)
+        FOR_NODES (kind, a, b, c) {
+            const int at[3] = {a, b, c};
+            double *node = patch + node_of(kind, base, a, b, c) * NODE_STRIDE;
+            add_affine(t, kind, chunk, lane, at, node + NODE_MOMENTUM);
+        }
+}
+
+/* Adds what the particles of a cell have to the nodes and faces of a patch. */
+BOLIDE_INLINE void cell_scatter_faces(const struct transfer *t, struct kind kind,
+                                      const struct cell_walk *walk, double *patch, double *stress)
+{
+    struct chunk chunk;
+    struct face_sums through;
+    struct node_sums sums;
+    ALIGNED double weight[NODES_MAX][LANES];
+    sums.mixes = false;
+    vector4_clear(sums.plain, nodes_of(kind));
+    vector4_clear(sums.mixing, nodes_of(kind));
+    clear_faces(kind, t->axisymmetric, &through);
+    for (int32_t begin = 0; begin < walk->count; begin += kind.lanes) {
+        weigh(t, kind, walk, begin, &chunk);
+        find_weights(kind, &chunk, weight);
+        scatter_nodes(t, kind, &chunk, weight, &sums);
+        scatter_faces(t, kind, &chunk, weight, &through);
+        scatter_affine(t, kind, &chunk, walk->base, patch);
+    }
+    add_node_sums(kind, walk->base, &sums, patch);
+    keep_faces(t, kind, walk->base, &through, stress);
+}
+
+/* The same with forces at nodes. */
+BOLIDE_INLINE void cell_scatter_forces(const struct transfer *t, struct kind kind,
+                                       const struct cell_walk *walk, struct node_record *record,
+                                       double *patch)
+{
+    struct chunk chunk;
+    vector8 sum[NODES_MAX];
+    vector8_clear(sum, nodes_of(kind));
+    for (int32_t begin = 0; begin < walk->count; begin += kind.lanes) {
+        weigh(t, kind, walk, begin, &chunk);
+        scatter_forces(t, kind, &chunk, record, sum);
+        scatter_affine(t, kind, &chunk, walk->base, patch);
+    }
+    add_sums8(kind, walk->base, sum, patch);
+}
+
 BOLIDE_INLINE void bin_scatter(const struct transfer *t, struct kind kind, int32_t bin)
 {
     double *patch = grid_patch(t->grid, t->main, bin);
     double *stress = t->by_faces ? grid_patch(t->grid, t->stress, bin) : NULL;
-    memset(patch, 0, (size_t)(t->grid->patch * NODE_STRIDE) * sizeof *patch);
+    memset(patch, 0, (size_t)(patch_of(kind) * NODE_STRIDE) * sizeof *patch);
     if (stress)
-        memset(stress, 0, (size_t)(t->grid->patch * FACE_STRIDE * kind.dimension) * sizeof *stress);
+        memset(stress, 0, (size_t)(patch_of(kind) * FACE_STRIDE * kind.dimension) * sizeof *stress);
     const struct corner corner = corner_of(t, kind, bin);
     struct node_record record[LANES] = {0};
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
-        struct chunk chunk;
-        struct face_sums through;
-        ALIGNED double weight[NODES_MAX][LANES];
-        vector8 sum[NODES_MAX];
-        if (walk.count == 0)
-            continue;
-        vector8_clear(sum, nodes_of(kind));
-        clear_faces(kind, t->axisymmetric, &through);
-        for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
-            weigh(t, kind, &walk, begin, &chunk);
-            if (stress) {
-                find_weights(kind, &chunk, weight);
-                scatter_nodes(t, kind, &chunk, weight, sum);
-                scatter_faces(t, kind, &chunk, weight, &through);
-            } else
-                scatter_forces(t, kind, &chunk, record, sum);
-            for (int lane = 0; lane < chunk.count && t->affine; lane++)
-                FOR_NODES (kind, a, b, c) {
-                    const int at[3] = {a, b, c};
-                    double *node = patch + node_of(t, kind, walk.base, a, b, c) * NODE_STRIDE;
-                    add_affine(t, kind, &chunk, lane, at, node + NODE_MOMENTUM);
-                }
-        }
-        add_sums8(t, kind, walk.base, sum, patch);
-        if (stress)
-            keep_faces(t, kind, walk.base, &through, stress);
+        if (walk.count > 0 && stress)
+            cell_scatter_faces(t, kind, &walk, patch, stress);
+        else if (walk.count > 0)
+            cell_scatter_forces(t, kind, &walk, record, patch);
     }
     if (stress)
         keep_fill(t, kind, stress, grid_patch(t->grid, t->fill, bin));
@@ -194,7 +251,7 @@ BOLIDE_INLINE void bin_scatter(const struct transfer *t, struct kind kind, int32
 BOLIDE_INLINE void bin_slopes(const struct transfer *t, struct kind kind, int32_t bin)
 {
     double *patch = grid_patch(t->grid, t->normal, bin);
-    memset(patch, 0, (size_t)(t->grid->patch * BACK_STRIDE) * sizeof *patch);
+    memset(patch, 0, (size_t)(patch_of(kind) * BACK_STRIDE) * sizeof *patch);
     const struct corner corner = corner_of(t, kind, bin);
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
@@ -204,7 +261,7 @@ BOLIDE_INLINE void bin_slopes(const struct transfer *t, struct kind kind, int32_
             for (int lane = 0; lane < chunk.count; lane++)
                 FOR_NODES (kind, a, b, c) {
                     const struct weight w = weight_of(kind, &chunk, lane, a, b, c);
-                    double *node = patch + node_of(t, kind, walk.base, a, b, c) * BACK_STRIDE;
+                    double *node = patch + node_of(kind, walk.base, a, b, c) * BACK_STRIDE;
                     for (int k = 0; k < kind.dimension; k++)
                         node[k] += t->mass[chunk.index[lane]] * w.slope[k];
                 }
@@ -213,8 +270,7 @@ BOLIDE_INLINE void bin_slopes(const struct transfer *t, struct kind kind, int32_
 }
 
 /* The same as `gather` with slopes: sum[i][j] is d data_i / d x_j. */
-BOLIDE_INLINE void gather_slopes(const struct transfer *t, struct kind kind,
-                                 const struct chunk *chunk, struct window from,
+BOLIDE_INLINE void gather_slopes(struct kind kind, const struct chunk *chunk, struct window from,
                                  double (*sum)[3][LANES])
 {
     for (int i = 0; i < 3; i++)
@@ -222,7 +278,7 @@ BOLIDE_INLINE void gather_slopes(const struct transfer *t, struct kind kind,
             FOR_LANES (kind, lane)
                 sum[i][j][lane] = 0.0;
     FOR_NODES (kind, a, b, c) {
-        const double *node = numbers_at(t, kind, from, a, b, c);
+        const double *node = numbers_at(kind, from, a, b, c);
         ALIGNED double slope[3][LANES];
         FOR_LANES (kind, lane) {
             const struct weight w = weight_of(kind, chunk, lane, a, b, c);
@@ -243,7 +299,7 @@ BOLIDE_INLINE void keep_gradient(const struct transfer *t, struct kind kind,
                                  const struct chunk *chunk, struct window velocity)
 {
     ALIGNED double sum[3][3][LANES];
-    gather_slopes(t, kind, chunk, velocity, sum);
+    gather_slopes(kind, chunk, velocity, sum);
     if (t->by_moments && kind.window > 2) {
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
@@ -251,7 +307,7 @@ BOLIDE_INLINE void keep_gradient(const struct transfer *t, struct kind kind,
                     sum[i][j][lane] = 0.0;
         FOR_NODES (kind, a, b, c) {
             const int at[3] = {a, b, c};
-            const double *node = numbers_at(t, kind, velocity, a, b, c);
+            const double *node = numbers_at(kind, velocity, a, b, c);
             FOR_LANES (kind, lane) {
                 const double w = weight_of(kind, chunk, lane, a, b, c).value;
                 for (int i = 0; i < kind.dimension; i++)
@@ -316,9 +372,10 @@ BOLIDE_INLINE void bin_velocity(const struct transfer *t, struct kind kind, int3
     double *back = scatter_back ? grid_patch(t->grid, t->back, bin) : NULL;
     const bool blend = t->flip < 1.0 || step.move;
     if (back)
-        memset(back, 0, (size_t)(t->grid->patch * BACK_STRIDE) * sizeof *back);
+        memset(back, 0, (size_t)(patch_of(kind) * BACK_STRIDE) * sizeof *back);
+    ALIGNED double stretch[STRETCH_MAX];
     if (t->by_faces && t->conserves)
-        bin_stretch(t, kind, bin, step.dt);
+        bin_stretch(t, kind, bin, step.dt, stretch);
     const struct corner corner = corner_of(t, kind, bin);
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
@@ -326,7 +383,7 @@ BOLIDE_INLINE void bin_velocity(const struct transfer *t, struct kind kind, int3
                             flows = window_of(patch + NODE_VELOCITY, NODE_STRIDE, walk.base),
                             accelerations =
                                 window_of(patch + NODE_ACCELERATION, NODE_STRIDE, walk.base);
-        const bool mixes = t->mixing > 0.0 && walk.count > 0 && window_mixes(t, kind, nodes);
+        const bool mixes = t->mixing > 0.0 && walk.count > 0 && window_mixes(kind, nodes);
         struct chunk chunk;
         ALIGNED double push[3][LANES], flow[3][LANES], weight[NODES_MAX][LANES];
         vector4 sum[NODES_MAX];
@@ -336,15 +393,15 @@ BOLIDE_INLINE void bin_velocity(const struct transfer *t, struct kind kind, int3
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
             find_weights(kind, &chunk, weight);
-            gather(t, kind, weight, accelerations, kind.dimension, push);
+            gather(kind, weight, accelerations, kind.dimension, push);
             if (blend)
-                gather(t, kind, weight, flows, kind.dimension, flow);
+                gather(kind, weight, flows, kind.dimension, flow);
             if (mixes || t->conserves) {
                 struct given given = {{{0.0}}, {0.0}};
                 if (mixes)
                     gather_mixed(t, kind, &chunk, weight, nodes, step.dt, push, &given);
                 if (t->conserves)
-                    gather_work(t, kind, &chunk, weight, nodes, bin, step.dt, push, &given);
+                    gather_work(t, kind, &chunk, weight, nodes, stretch, step.dt, push, &given);
                 take_given(t, kind, &chunk, &given);
             }
             accelerate(t, kind, &chunk, step, push, flow);
@@ -357,18 +414,18 @@ BOLIDE_INLINE void bin_velocity(const struct transfer *t, struct kind kind, int3
                 FOR_NODES (kind, a, b, c) {
                     const int at[3] = {a, b, c};
                     add_affine(t, kind, &chunk, lane, at,
-                               back + node_of(t, kind, walk.base, a, b, c) * BACK_STRIDE);
+                               back + node_of(kind, walk.base, a, b, c) * BACK_STRIDE);
                 }
         }
         if (back)
-            add_sums4(t, kind, walk.base, sum, back);
+            add_sums4(kind, walk.base, sum, back);
     }
 }
 
 BOLIDE_INLINE void bin_again(const struct transfer *t, struct kind kind, int32_t bin,
                              const double *from, bool accelerations, double *to)
 {
-    memset(to, 0, (size_t)(t->grid->patch * NODE_STRIDE) * sizeof *to);
+    memset(to, 0, (size_t)(patch_of(kind) * NODE_STRIDE) * sizeof *to);
     const struct corner corner = corner_of(t, kind, bin);
     ALIGNED double got[NODE_STRIDE][LANES] = {{0.0}}, weight[NODES_MAX][LANES];
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
@@ -379,10 +436,10 @@ BOLIDE_INLINE void bin_again(const struct transfer *t, struct kind kind, int32_t
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
             find_weights(kind, &chunk, weight);
-            gather(t, kind, weight, window_of(from + NODE_VELOCITY, NODE_STRIDE, walk.base),
+            gather(kind, weight, window_of(from + NODE_VELOCITY, NODE_STRIDE, walk.base),
                    kind.dimension, got + NODE_VELOCITY);
             if (accelerations)
-                gather(t, kind, weight, window_of(from + NODE_ACCELERATION, NODE_STRIDE, walk.base),
+                gather(kind, weight, window_of(from + NODE_ACCELERATION, NODE_STRIDE, walk.base),
                        kind.dimension, got + NODE_ACCELERATION);
             for (int lane = 0; lane < chunk.count; lane++) {
                 const double m = t->mass[chunk.index[lane]];
@@ -399,7 +456,7 @@ BOLIDE_INLINE void bin_again(const struct transfer *t, struct kind kind, int32_t
             }
         }
         if (walk.count)
-            add_sums8(t, kind, walk.base, sum, to);
+            add_sums8(kind, walk.base, sum, to);
     }
 }
 
@@ -434,7 +491,7 @@ BOLIDE_INLINE void filter_divergence(const struct transfer *t, struct kind kind,
 {
     ALIGNED double mean[1][LANES];
     double *unresolved = rates.to + (size_t)RATE_UNRESOLVED * rates.stride;
-    gather(t, kind, weight, back, 1, mean);
+    gather(kind, weight, back, 1, mean);
     FOR_LANES (kind, lane)
         unresolved[lane] = t->divergence[chunk->index[lane]] - mean[0][lane];
     for (int lane = 0; lane < chunk->count; lane++)
@@ -459,11 +516,11 @@ BOLIDE_INLINE void bin_gradient(const struct transfer *t, struct kind kind, int3
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
             find_weights(kind, &chunk, weight);
-            gather_slopes(t, kind, &chunk, of, sum);
+            gather_slopes(kind, &chunk, of, sum);
             if (round)
-                gather_around(t, kind, &chunk, of, around);
+                gather_around(kind, &chunk, of, around);
             if (step.move)
-                gather(t, kind, weight, flows, kind.dimension, flow);
+                gather(kind, weight, flows, kind.dimension, flow);
             keep_rates(t, kind, &chunk, sum, around, rates);
             if (t->divergence)
                 filter_divergence(

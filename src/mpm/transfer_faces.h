@@ -145,16 +145,16 @@ BOLIDE_INLINE void keep_faces(const struct transfer *t, struct kind kind, size_t
     for (int d = 0; d < kind.dimension; d++) {
         const vector4 *sum = sums->of[d];
         FOR_FACES (kind, d, a, b, c)
-            vector4_add_to(
-                stress + (node_of(t, kind, base, a, b, c) * (size_t)kind.dimension + (size_t)d) *
-                             FACE_STRIDE,
-                *sum++);
+            vector4_add_to(stress +
+                               (node_of(kind, base, a, b, c) * (size_t)kind.dimension + (size_t)d) *
+                                   FACE_STRIDE,
+                           *sum++);
     }
     if (!(kind.dimension == 2 && t->axisymmetric))
         return;
     const double *sum = (const double *)sums->ring;
     FOR_NODES (kind, a, b, c) {
-        double *node = stress + node_of(t, kind, base, a, b, c) * 2 * FACE_STRIDE;
+        double *node = stress + node_of(kind, base, a, b, c) * 2 * FACE_STRIDE;
         node[FACE_RING] += sum[0];
         node[FACE_HOOP] += sum[1];
         sum += FACE_STRIDE;
@@ -165,19 +165,19 @@ BOLIDE_INLINE void keep_faces(const struct transfer *t, struct kind kind, size_t
 BOLIDE_INLINE void keep_fill(const struct transfer *t, struct kind kind, const double *stress,
                              double *fill)
 {
-    for (int n = 0; n < t->grid->patch; n++)
+    for (int n = 0; n < patch_of(kind); n++)
         for (int d = 0; d < kind.dimension; d++)
             fill[n * FILL_STRIDE + d] = stress[(n * kind.dimension + d) * FACE_STRIDE + FACE_FILL];
-    for (int n = 0; n < t->grid->patch && kind.dimension == 2 && t->axisymmetric; n++)
+    for (int n = 0; n < patch_of(kind) && kind.dimension == 2 && t->axisymmetric; n++)
         fill[n * FILL_STRIDE + FILL_RING] = stress[n * 2 * FACE_STRIDE + FACE_RING];
 }
 
 /* So many nodes of a patch lie between one and the next along AXIS. */
-BOLIDE_INLINE int patch_step(const struct transfer *t, struct kind kind, int axis)
+BOLIDE_INLINE int patch_step(struct kind kind, int axis)
 {
     int step = 1;
     for (int k = axis + 1; k < kind.dimension; k++)
-        step *= t->grid->side;
+        step *= side_of(kind);
     return step;
 }
 
@@ -203,8 +203,8 @@ BOLIDE_INLINE void bin_push(const struct transfer *t, struct kind kind, int32_t 
                  *fill = grid_patch(t->grid, t->fill, bin);
     double *patch = grid_patch(t->grid, t->main, bin);
     for (int d = 0; d < kind.dimension; d++) {
-        const int step = patch_step(t, kind, d);
-        for (int n = 0; n + step < t->grid->patch; n++) {
+        const int step = patch_step(kind, d);
+        for (int n = 0; n + step < patch_of(kind); n++) {
             const vector4 push = vector4_load(stress + (n * kind.dimension + d) * FACE_STRIDE) *
                                  face_factors(kind, fill + n * FILL_STRIDE, d);
             double *low = patch + n * NODE_STRIDE + NODE_FORCE;
@@ -212,22 +212,25 @@ BOLIDE_INLINE void bin_push(const struct transfer *t, struct kind kind, int32_t 
             vector4_add_to(low + step * NODE_STRIDE, -1.0 * push);
         }
     }
-    for (int n = 0; n < t->grid->patch && kind.dimension == 2 && t->axisymmetric; n++)
+    for (int n = 0; n < patch_of(kind) && kind.dimension == 2 && t->axisymmetric; n++)
         patch[n * NODE_STRIDE + NODE_FORCE] +=
             stress[n * 2 * FACE_STRIDE + FACE_HOOP] * fill[n * FILL_STRIDE + FILL_RING];
 }
 
-/* Turns the patch of stresses of a bin into that of what they work with in a step of DT:
- * differences over the faces of the ways of nodes, over the edge, with the factors. */
-BOLIDE_INLINE void bin_stretch(const struct transfer *t, struct kind kind, int32_t bin, double dt)
+/* Numbers of the largest patch of stresses, in 3-D. */
+enum { STRETCH_MAX = 7 * 7 * 7 * 3 * FACE_STRIDE };
+
+/* Fills STRETCH, laid out as the patch of stresses of a bin, with what they work with in a step of
+ * DT: differences over the faces of the ways of nodes, over the edge, with the factors. */
+BOLIDE_INLINE void bin_stretch(const struct transfer *t, struct kind kind, int32_t bin, double dt,
+                               double *stretch)
 {
     const double *patch = grid_patch(t->grid, t->main, bin),
                  *fill = grid_patch(t->grid, t->fill, bin);
-    double *stretch = grid_patch(t->grid, t->stress, bin);
     const double per_edge = 1.0 / t->edge;
     for (int d = 0; d < kind.dimension; d++) {
-        const int step = patch_step(t, kind, d);
-        for (int n = 0; n + step < t->grid->patch; n++) {
+        const int step = patch_step(kind, d);
+        for (int n = 0; n + step < patch_of(kind); n++) {
             const double *low = patch + n * NODE_STRIDE, *high = low + step * NODE_STRIDE;
             const vector4 more = vector4_load(high + NODE_VELOCITY) -
                                  vector4_load(low + NODE_VELOCITY),
@@ -238,7 +241,7 @@ BOLIDE_INLINE void bin_stretch(const struct transfer *t, struct kind kind, int32
             memcpy(stretch + (n * kind.dimension + d) * FACE_STRIDE, &mean, sizeof mean);
         }
     }
-    for (int n = 0; n < t->grid->patch && kind.dimension == 2 && t->axisymmetric; n++) {
+    for (int n = 0; n < patch_of(kind) && kind.dimension == 2 && t->axisymmetric; n++) {
         const double *node = patch + n * NODE_STRIDE;
         stretch[n * 2 * FACE_STRIDE + FACE_HOOP] =
             dt * (node[NODE_VELOCITY] - 0.5 * dt * node[NODE_ACCELERATION]) *
@@ -248,9 +251,8 @@ BOLIDE_INLINE void bin_stretch(const struct transfer *t, struct kind kind, int32
 
 /* What the lanes of a chunk take of the first numbers of the faces ACROSS an axis, as many as there
  * are axes. BASE is the first node of the window in the patch. */
-BOLIDE_INLINE void gather_faces(const struct transfer *t, struct kind kind,
-                                const struct chunk *chunk, const double *stretch, size_t base,
-                                int across, double (*sum)[LANES])
+BOLIDE_INLINE void gather_faces(struct kind kind, const struct chunk *chunk, const double *stretch,
+                                size_t base, int across, double (*sum)[LANES])
 {
     ALIGNED double weight[NODES_MAX][LANES];
     const double(*w)[LANES] = weight;
@@ -260,8 +262,8 @@ BOLIDE_INLINE void gather_faces(const struct transfer *t, struct kind kind,
             sum[k][lane] = 0.0;
     FOR_FACES (kind, across, a, b, c) {
         const double *face =
-            stretch + (node_of(t, kind, base, a, b, c) * (size_t)kind.dimension + (size_t)across) *
-                          FACE_STRIDE;
+            stretch +
+            (node_of(kind, base, a, b, c) * (size_t)kind.dimension + (size_t)across) * FACE_STRIDE;
         for (int k = 0; k < kind.dimension; k++)
             FOR_LANES (kind, lane)
                 sum[k][lane] += (*w)[lane] * face[k];

@@ -49,8 +49,8 @@ BOLIDE_INLINE void gather_heat(const struct transfer *t, struct kind kind,
         gain[lane] = 0.0;
     }
     FOR_NODES (kind, a, b, c) {
-        const double *node = numbers_at(t, kind, nodes, a, b, c),
-                     *heat = numbers_at(t, kind, heats, a, b, c);
+        const double *node = numbers_at(kind, nodes, a, b, c),
+                     *heat = numbers_at(kind, heats, a, b, c);
         for (int lane = 0; lane < kind.lanes && node[NODE_MIXING] > 0.0; lane++)
             gain[lane] += (*w)[lane] * heat[HEAT_NUMBER] * (heat[HEAT_ENERGY] - energy[lane]);
         w++;
@@ -61,7 +61,7 @@ BOLIDE_INLINE void bin_mix(const struct transfer *t, struct kind kind, int32_t b
 {
     double *patch = grid_patch(t->grid, t->main, bin), *heat = grid_patch(t->grid, t->back, bin);
     const struct corner corner = corner_of(t, kind, bin);
-    for (int n = 0; n < t->grid->patch; n++)
+    for (int n = 0; n < patch_of(kind); n++)
         if (patch[n * NODE_STRIDE + NODE_MIXING] > 0.0)
             settle_node(patch + n * NODE_STRIDE, heat + n * BACK_STRIDE, dt);
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
@@ -70,7 +70,7 @@ BOLIDE_INLINE void bin_mix(const struct transfer *t, struct kind kind, int32_t b
                             heats = window_of(heat, BACK_STRIDE, walk.base);
         struct chunk chunk;
         ALIGNED double gain[LANES];
-        if (walk.count == 0 || !window_mixes(t, kind, nodes))
+        if (walk.count == 0 || !window_mixes(kind, nodes))
             continue;
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
@@ -92,7 +92,7 @@ BOLIDE_INLINE void bin_warm(const struct transfer *t, struct kind kind, int32_t 
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
             find_weights(kind, &chunk, weight);
-            gather(t, kind, weight, window_of(patch + BACK_HEAT, BACK_STRIDE, walk.base), 1, heat);
+            gather(kind, weight, window_of(patch + BACK_HEAT, BACK_STRIDE, walk.base), 1, heat);
             for (int lane = 0; lane < chunk.count; lane++)
                 t->energy[chunk.index[lane]] += heat[0][lane];
         }

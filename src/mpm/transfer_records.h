@@ -11,7 +11,7 @@ BOLIDE_INLINE void bin_records(const struct transfer *t, struct kind kind, int32
                                vector4 (*record_of)(const struct transfer *, int32_t, double))
 {
     double *patch = grid_patch(t->grid, t->back, bin);
-    memset(patch, 0, (size_t)(t->grid->patch * BACK_STRIDE) * sizeof *patch);
+    memset(patch, 0, (size_t)(patch_of(kind) * BACK_STRIDE) * sizeof *patch);
     const struct corner corner = corner_of(t, kind, bin);
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
@@ -30,7 +30,7 @@ BOLIDE_INLINE void bin_records(const struct transfer *t, struct kind kind, int32
             }
             add_records4(kind, nodes_of(kind), weight, record, sum);
         }
-        add_sums4(t, kind, walk.base, sum, patch);
+        add_sums4(kind, walk.base, sum, patch);
     }
 }
 

@@ -21,7 +21,7 @@ BOLIDE_INLINE void bin_speed(const struct transfer *t, struct kind kind, int32_t
 {
     double *patch = grid_patch(t->grid, t->back, bin);
     const struct corner corner = corner_of(t, kind, bin);
-    for (int n = 0; n < t->grid->patch; n++) {
+    for (int n = 0; n < patch_of(kind); n++) {
         double *node = patch + n * BACK_STRIDE;
         const double mass = node[SPEED_MASS], courant = node[SPEED_COURANT];
         node[SPEED_SOUND] = courant > 0.0 ? sqrt(node[SPEED_STIFFNESS] * mass) / courant : 0.0;
@@ -38,7 +38,7 @@ BOLIDE_INLINE void bin_speed(const struct transfer *t, struct kind kind, int32_t
             FOR_LANES (kind, lane)
                 most[lane] = 0.0;
             FOR_NODES (kind, a, b, c) {
-                const double of = numbers_at(t, kind, nodes, a, b, c)[SPEED_SOUND];
+                const double of = numbers_at(kind, nodes, a, b, c)[SPEED_SOUND];
                 FOR_LANES (kind, lane)
                     most[lane] = (*w)[lane] > 0.0 ? maximum(most[lane], of) : most[lane];
                 w++;

@@ -3,6 +3,8 @@
 #ifndef BOLIDE_MPM_TRANSFER_WEIGHTS_H
 #define BOLIDE_MPM_TRANSFER_WEIGHTS_H
 
+#include <string.h>
+
 #include "base/lanes.h"
 #include "base/wide.h"
 #include "mpm/transfer.h"
@@ -30,6 +32,18 @@ BOLIDE_INLINE int nodes_of(struct kind kind)
     return kind.dimension == 1   ? kind.window
            : kind.dimension == 2 ? kind.window * kind.window
                                  : kind.window * kind.window * kind.window;
+}
+
+/* Nodes of a patch along an axis, and in all: those of the grid's, known when it is compiled. */
+BOLIDE_INLINE int side_of(struct kind kind)
+{
+    return block_cells(kind.dimension) + kind.window - 1;
+}
+
+BOLIDE_INLINE int patch_of(struct kind kind)
+{
+    const int side = side_of(kind);
+    return kind.dimension == 1 ? side : kind.dimension == 2 ? side * side : side * side * side;
 }
 
 /* Up to eight particles of a cell, and their shape functions. What is behind the last particle
@@ -80,7 +94,7 @@ BOLIDE_INLINE struct cell_walk cell_of(const struct transfer *t, struct kind kin
         walk.index[axis] = 0;
     for (int axis = 0; axis < kind.dimension; axis++) {
         walk.index[axis] = corner->index[axis] + place[axis];
-        walk.base = walk.base * (size_t)t->grid->side + (size_t)place[axis];
+        walk.base = walk.base * (size_t)side_of(kind) + (size_t)place[axis];
     }
     return walk;
 }
@@ -127,9 +141,10 @@ BOLIDE_INLINE void weigh_chunk(const struct transfer *t, struct kind kind,
 {
     const double per_edge = 1.0 / t->edge;
     ALIGNED double place[3][LANES], half[LANES];
-    FOR_LANES (kind, lane)
-        chunk->index[lane] = walk->list[begin + (lane < count ? lane : count - 1)];
-    const bool sized = t->shape == SHAPE_GIMP || t->axisymmetric;
+    memcpy(chunk->index, walk->list + begin, (size_t)count * sizeof *chunk->index);
+    for (int lane = count; lane < kind.lanes; lane++)
+        chunk->index[lane] = walk->list[begin + count - 1];
+    const bool sized = t->shape == SHAPE_GIMP || (t->axisymmetric && !t->by_faces);
     for (int lane = 0; lane < kind.lanes && sized; lane++)
         half[lane] = t->half_size[t->body[chunk->index[lane]]];
     for (int lane = 0; lane < kind.lanes; lane++)
@@ -206,10 +221,9 @@ BOLIDE_INLINE void weigh(const struct transfer *t, struct kind kind, const struc
 }
 
 /* The node at a, b, c of a window; nodes of axes that there are not count as one. */
-BOLIDE_INLINE size_t node_of(const struct transfer *t, struct kind kind, size_t base, int a, int b,
-                             int c)
+BOLIDE_INLINE size_t node_of(struct kind kind, size_t base, int a, int b, int c)
 {
-    const size_t side = (size_t)t->grid->side;
+    const size_t side = (size_t)side_of(kind);
     if (kind.dimension == 1)
         return base + (size_t)a;
     if (kind.dimension == 2)
@@ -230,10 +244,9 @@ BOLIDE_INLINE struct window window_of(const double *data, int stride, size_t bas
     return window;
 }
 
-BOLIDE_INLINE const double *numbers_at(const struct transfer *t, struct kind kind,
-                                       struct window window, int a, int b, int c)
+BOLIDE_INLINE const double *numbers_at(struct kind kind, struct window window, int a, int b, int c)
 {
-    return window.data + node_of(t, kind, window.base, a, b, c) * (size_t)window.stride;
+    return window.data + node_of(kind, window.base, a, b, c) * (size_t)window.stride;
 }
 
 #define FOR_NODES(kind, a, b, c)                                             \
@@ -281,14 +294,14 @@ BOLIDE_INLINE void find_weights(struct kind kind, const struct chunk *chunk,
 }
 
 /* For the lanes of a chunk: the sums over nodes, with their WEIGHT, of COUNT of their numbers. */
-BOLIDE_INLINE void gather(const struct transfer *t, struct kind kind, const double (*weight)[LANES],
-                          struct window from, int count, double (*sum)[LANES])
+BOLIDE_INLINE void gather(struct kind kind, const double (*weight)[LANES], struct window from,
+                          int count, double (*sum)[LANES])
 {
     for (int k = 0; k < count; k++)
         FOR_LANES (kind, lane)
             sum[k][lane] = 0.0;
     FOR_NODES (kind, a, b, c) {
-        const double *node = numbers_at(t, kind, from, a, b, c);
+        const double *node = numbers_at(kind, from, a, b, c);
         for (int k = 0; k < count; k++)
             FOR_LANES (kind, lane)
                 sum[k][lane] += (*weight)[lane] * node[k];
@@ -298,17 +311,6 @@ BOLIDE_INLINE void gather(const struct transfer *t, struct kind kind, const doub
 
 /* Adds the RECORD of each lane to the sums of COUNT nodes or faces, with their WEIGHT; records of
  * lanes behind the last particle are zero. */
-BOLIDE_INLINE void add_records8(struct kind kind, int count, const double (*weight)[LANES],
-                                const vector8 *record, vector8 *sum)
-{
-    for (int n = 0; n < count; n++) {
-        vector8 all = sum[n];
-        for (int lane = 0; lane < kind.lanes; lane++)
-            all += weight[n][lane] * record[lane];
-        sum[n] = all;
-    }
-}
-
 BOLIDE_INLINE void add_records4(struct kind kind, int count, const double (*weight)[LANES],
                                 const vector4 *record, vector4 *sum)
 {

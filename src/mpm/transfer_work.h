@@ -13,11 +13,11 @@ struct given {
 };
 
 /* Whether any node of a window mixes. */
-BOLIDE_INLINE bool window_mixes(const struct transfer *t, struct kind kind, struct window nodes)
+BOLIDE_INLINE bool window_mixes(struct kind kind, struct window nodes)
 {
     bool mixes = false;
     FOR_NODES (kind, a, b, c)
-        mixes |= numbers_at(t, kind, nodes, a, b, c)[NODE_MIXING] > 0.0;
+        mixes |= numbers_at(kind, nodes, a, b, c)[NODE_MIXING] > 0.0;
     return mixes;
 }
 
@@ -33,7 +33,7 @@ BOLIDE_INLINE void gather_mixed(const struct transfer *t, struct kind kind,
         FOR_LANES (kind, lane)
             velocity[k][lane] = t->velocity[chunk->index[lane]][k];
     FOR_NODES (kind, a, b, c) {
-        const double *node = numbers_at(t, kind, nodes, a, b, c);
+        const double *node = numbers_at(kind, nodes, a, b, c);
         for (int k = 0; k < kind.dimension && node[NODE_MIXING] > 0.0; k++) {
             const double before = node[NODE_VELOCITY + k] - dt * node[NODE_ACCELERATION + k];
             FOR_LANES (kind, lane) {
@@ -53,14 +53,14 @@ BOLIDE_INLINE void gather_mixed(const struct transfer *t, struct kind kind,
 
 /* The radial component of the numbers of nodes, as the hoop strain of the lanes of a chunk sees
  * it. */
-BOLIDE_INLINE void gather_around(const struct transfer *t, struct kind kind,
-                                 const struct chunk *chunk, struct window velocity, double *sum)
+BOLIDE_INLINE void gather_around(struct kind kind, const struct chunk *chunk,
+                                 struct window velocity, double *sum)
 {
     FOR_LANES (kind, lane)
         sum[lane] = 0.0;
     for (int a = 0; a < kind.window; a++)
         for (int b = 0; b < kind.window; b++) {
-            const double *node = numbers_at(t, kind, velocity, a, b, 0);
+            const double *node = numbers_at(kind, velocity, a, b, 0);
             FOR_LANES (kind, lane)
                 sum[lane] += chunk->around[a][lane] * chunk->value[1][b][lane] * node[0];
         }
@@ -75,7 +75,7 @@ BOLIDE_INLINE double work_of_gauge(const struct transfer *t, struct kind kind,
     const int32_t i = chunk->index[lane];
     double grown = 0.0;
     FOR_NODES (kind, a, b, c) {
-        const double *node = numbers_at(t, kind, nodes, a, b, c);
+        const double *node = numbers_at(kind, nodes, a, b, c);
         const struct weight w = weight_of(kind, chunk, lane, a, b, c);
         for (int k = 0; k < kind.dimension; k++) {
             const double change = dt * node[NODE_ACCELERATION + k],
@@ -119,7 +119,7 @@ BOLIDE_INLINE void work_at_nodes(const struct transfer *t, struct kind kind,
     struct lane_stress stress;
     load_stress(t, kind, chunk, &stress);
     FOR_NODES (kind, a, b, c) {
-        const double *node = numbers_at(t, kind, nodes, a, b, c);
+        const double *node = numbers_at(kind, nodes, a, b, c);
         double mean[3] = {0.0};
         for (int k = 0; k < kind.dimension; k++)
             mean[k] = dt * (node[NODE_VELOCITY + k] - 0.5 * dt * node[NODE_ACCELERATION + k]);
@@ -142,16 +142,16 @@ BOLIDE_INLINE void work_at_nodes(const struct transfer *t, struct kind kind,
         t->ambient[chunk->index[lane]] = work_of_gauge(t, kind, chunk, lane, nodes, dt);
 }
 
-/* The same by faces, whose differences of ways stand in the patch of stresses of BIN. */
+/* The same by faces; STRETCH has what their stresses work with (bin_stretch). */
 BOLIDE_INLINE void work_at_faces(const struct transfer *t, struct kind kind,
-                                 const struct chunk *chunk, int32_t bin, size_t base, double *work)
+                                 const struct chunk *chunk, const double *stretch, size_t base,
+                                 double *work)
 {
-    const double *stretch = grid_patch(t->grid, t->stress, bin);
     struct lane_stress stress;
     ALIGNED double sum[3][LANES], grown[LANES] = {0.0};
     load_stress(t, kind, chunk, &stress);
     for (int d = 0; d < kind.dimension; d++) {
-        gather_faces(t, kind, chunk, stretch, base, d, sum);
+        gather_faces(kind, chunk, stretch, base, d, sum);
         FOR_LANES (kind, lane) {
             for (int k = 0; k < kind.dimension; k++)
                 work[lane] += stress.of[k][d][lane] * sum[k][lane];
@@ -164,7 +164,7 @@ BOLIDE_INLINE void work_at_faces(const struct transfer *t, struct kind kind,
         for (int a = 0; a < kind.window; a++)
             for (int b = 0; b < kind.window; b++) {
                 const double out =
-                    stretch[node_of(t, kind, base, a, b, 0) * 2 * FACE_STRIDE + FACE_HOOP];
+                    stretch[node_of(kind, base, a, b, 0) * 2 * FACE_STRIDE + FACE_HOOP];
                 FOR_LANES (kind, lane)
                     sum[0][lane] += chunk->value[0][a][lane] * chunk->value[1][b][lane] * out;
             }
@@ -189,16 +189,16 @@ BOLIDE_INLINE void work_at_faces(const struct transfer *t, struct kind kind,
  * kinetic energy, what other forces than those of stresses do with W. */
 BOLIDE_INLINE void gather_work(const struct transfer *t, struct kind kind,
                                const struct chunk *chunk, const double (*weight)[LANES],
-                               struct window nodes, int32_t bin, double dt,
+                               struct window nodes, const double *stretch, double dt,
                                const double (*push)[LANES], struct given *given)
 {
     ALIGNED double work[LANES] = {0.0};
     if (t->by_faces)
-        work_at_faces(t, kind, chunk, bin, nodes.base, work);
+        work_at_faces(t, kind, chunk, stretch, nodes.base, work);
     else
         work_at_nodes(t, kind, chunk, nodes, dt, work);
     FOR_NODES (kind, a, b, c) {
-        const double *node = numbers_at(t, kind, nodes, a, b, c);
+        const double *node = numbers_at(kind, nodes, a, b, c);
         double kick = 0.0;
         for (int k = 0; k < kind.dimension; k++)
             kick += 0.5 * square(dt * node[NODE_ACCELERATION + k]);
