@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-#if defined(__AVX512F__)
+#if defined(__AVX2__)
 #include <immintrin.h>
 #endif
 
@@ -40,6 +40,25 @@ BOLIDE_INLINE void transpose_four(const double *const row[LANES], int offset, ve
     }
 }
 
+#elif defined(__AVX2__)
+/* Two numbers each of two rows. */
+BOLIDE_INLINE __m256d two_of_each(const double *first, const double *second)
+{
+    return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(first)), _mm_loadu_pd(second),
+                                1);
+}
+
+/* The same for four rows, a half of the columns. */
+BOLIDE_INLINE void transpose_half(const double *const row[4], int offset, __m256d column[4])
+{
+    for (int f = 0; f < 4; f += 2) {
+        const __m256d even = two_of_each(row[0] + offset + f, row[2] + offset + f),
+                      odd = two_of_each(row[1] + offset + f, row[3] + offset + f);
+        column[f] = _mm256_unpacklo_pd(even, odd);
+        column[f + 1] = _mm256_unpackhi_pd(even, odd);
+    }
+}
+
 #endif
 
 /* Turns four columns of eight rows, from OFFSET on, into lanes. */
@@ -49,6 +68,13 @@ BOLIDE_INLINE void transpose(const double *const row[LANES], int offset, double 
     vector8 four[4];
     transpose_four(row, offset, four);
     memcpy(column, four, sizeof four);
+#elif defined(__AVX2__)
+    for (int k = 0; k < LANES; k += 4) {
+        __m256d half[4];
+        transpose_half(row + k, offset, half);
+        for (int f = 0; f < 4; f++)
+            _mm256_storeu_pd(column[f] + k, half[f]);
+    }
 #else
     for (int k = 0; k < LANES; k++)
         for (int f = 0; f < 4; f++)
@@ -81,6 +107,24 @@ BOLIDE_INLINE void lanes_totals(double (*lane)[LANES], int count, double *total)
             __builtin_shufflevector(quarter[0], quarter[1], 0, 8, 2, 10, 4, 12, 6, 14) +
             __builtin_shufflevector(quarter[0], quarter[1], 1, 9, 3, 11, 5, 13, 7, 15);
         memcpy(total + first, &all, sizeof all);
+    }
+}
+#elif defined(__AVX2__)
+/* Lanes k + 4 of two accumulators added to lanes k, then lanes k + 2 of that to lanes k. */
+BOLIDE_INLINE __m256d two_of_two(const double first[LANES], const double second[LANES])
+{
+    const __m256d a = _mm256_add_pd(_mm256_loadu_pd(first), _mm256_loadu_pd(first + 4)),
+                  b = _mm256_add_pd(_mm256_loadu_pd(second), _mm256_loadu_pd(second + 4));
+    return _mm256_add_pd(_mm256_permute2f128_pd(a, b, 0x20), _mm256_permute2f128_pd(a, b, 0x31));
+}
+
+BOLIDE_INLINE void lanes_totals(double (*lane)[LANES], int count, double *total)
+{
+    for (int k = 0; k < count; k += 4) {
+        const __m256d even = two_of_two(lane[k], lane[k + 2]),
+                      odd = two_of_two(lane[k + 1], lane[k + 3]);
+        _mm256_storeu_pd(
+            total + k, _mm256_add_pd(_mm256_unpacklo_pd(even, odd), _mm256_unpackhi_pd(even, odd)));
     }
 }
 #else
@@ -184,11 +228,57 @@ BOLIDE_INLINE int lanes_compress_wide(struct lane_records records, const double 
 }
 #endif
 
+#if defined(__AVX2__) && !defined(__AVX512F__)
+/* Which of four records, of which PLACE has position and diameter, are within support of OWN, a
+ * bit each. */
+BOLIDE_INLINE int lanes_near(struct lane_records records, const double *own,
+                             const double *const place[4])
+{
+    __m256d column[4];
+    transpose_half(place, 0, column);
+    __m256d apart = _mm256_sub_pd(column[0], _mm256_set1_pd(own[0])),
+            sum = _mm256_mul_pd(apart, apart);
+    for (int axis = 1; axis < records.dimension; axis++) {
+        apart = _mm256_sub_pd(column[axis], _mm256_set1_pd(own[axis]));
+        sum = _mm256_add_pd(sum, _mm256_mul_pd(apart, apart));
+    }
+    const __m256d support = _mm256_mul_pd(
+        _mm256_set1_pd(records.smoothing),
+        _mm256_add_pd(_mm256_set1_pd(own[records.dimension]), column[records.dimension]));
+    return _mm256_movemask_pd(_mm256_cmp_pd(sum, _mm256_mul_pd(support, support), _CMP_LT_OQ));
+}
+
+/* The same as lanes_compress, four at once. */
+BOLIDE_INLINE int lanes_compress_wide(struct lane_records records, const double *own,
+                                      const uint32_t *entry, int count, uint32_t bits,
+                                      uint32_t *list)
+{
+    const double *place = records.place ? records.place : records.record;
+    const size_t stride = records.place ? PLACE_STRIDE : (size_t)records.stride;
+    int kept = 0;
+    for (int q = 0; q < count; q += 4) {
+        const int some = count - q < 4 ? count - q : 4;
+        const double *row[4];
+        uint32_t held[4];
+        for (int k = 0; k < 4; k++)
+            held[k] = entry[q + (k < some ? k : 0)];
+        for (int k = 0; k < 4; k++)
+            row[k] = place + (size_t)(held[k] & ENTRY_INDEX) * stride;
+        const int near = lanes_near(records, own, row) & ((1 << some) - 1);
+        for (int k = 0; k < 4; k++) {
+            list[kept] = held[k] & bits;
+            kept += near >> k & 1;
+        }
+    }
+    return kept;
+}
+#endif
+
 /* The better of both; LIST has room for COUNT + LANES. */
 BOLIDE_INLINE int lanes_keep(struct lane_records records, const double *own, const uint32_t *entry,
                              int count, uint32_t bits, uint32_t *list)
 {
-#if defined(__AVX512F__)
+#if defined(__AVX2__)
     if (records.dimension > 1)
         return lanes_compress_wide(records, own, entry, count, bits, list);
 #endif
