@@ -321,8 +321,8 @@ static const struct answer answers[] = {
      "1 us}.",
      "tasks/long-rod.md"},
     {" dust debris.mass ",
-     "Failed particles are dust: {fragments: {take: dust}, of: BODY} is its mass, `take: mass` with\n"
-     "`above` and `below` that of fragments; `output: {fragments: yes}` lists them.",
+     "Failed particles are dust: {fragments: {take: dust}, of: BODY} is its mass, `take: mass`\n"
+     "with `above` and `below` that of fragments; `output: {fragments: yes}` lists them.",
      "case.md"},
     {" residual residual.velocity residual.length residual.rod ",
      "Residual velocity: {mean: velocity.y, of: BODY} at the end of the run; `bolide search`\n"

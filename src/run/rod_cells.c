@@ -1,6 +1,6 @@
-/* Particles across the radius of a rod; see rod_cells.h. The strength of a rod acts at its nose in a
- * layer that is thin beside the radius: with 4 particles in the radius nothing of it is felt there,
- * with 8 half of it (docs/tasks/long-rod.md). */
+/* Particles across the radius of a rod; see rod_cells.h. The strength of a rod acts at its nose in
+ * a layer that is thin beside the radius: with 4 particles in the radius nothing of it is felt
+ * there, with 8 half of it (docs/tasks/long-rod.md). */
 #include "run/rod_cells.h"
 
 #include <math.h>
