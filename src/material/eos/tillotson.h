@@ -9,10 +9,10 @@
  * and the pressure is not below -tension, where that is given: the material keeps this tension as
  * it expands further, and has pressure again once it is compressed to the same density.
  *
- * By default an energy below zero, which no cold matter has at any density, counts as e/(1 - e/e_1),
- * e_1 = e_0/5, and w is 1 there: else matter under tension that is compressed would cool without
- * bound. c^2 is held at a hundredth of A/rho_0 times eta in tension beyond its maximum, A^2/(4 B) at
- * no energy. Where p > 0 the form has a sound speed everywhere.
+ * By default an energy below zero, which nothing cold has at any density, counts as e/(1 - e/e_1)
+ * with e_1 = e_0/5, and w is 1 there: else what is under tension and compressed would cool without
+ * bound. c^2 is held at a hundredth of A/rho_0 times eta in tension beyond its maximum, A^2/(4 B)
+ * at no energy. Where p > 0 the form has a sound speed everywhere.
  *
  * Source: Tillotson, General Atomic report GA-3216 (1962); in this form Melosh, Impact Cratering
  * (1989), II.4. */
