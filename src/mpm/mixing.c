@@ -15,8 +15,8 @@
  * mode that nodes do not see, one particle hot and the next cold, or the heat that an impact leaves
  * at a wall. Those of products count with the heat that burning has freed, else what has not burnt
  * yet would become colder than the explosive can be. At a node of several materials b = 0. b is dt
- * times the mean rate of the node's particles (mixing_rate of transfer_scatter.h), at most 1, and a =
- * 2b/3. Walls act as on all nodal sums. */
+ * times the mean rate of the node's particles (mixing_rate of transfer_scatter.h), at most 1, and
+ * a = 2b/3. Walls act as on all nodal sums. */
 #include "base/memory.h"
 #include "mpm/mpm_internal.h"
 

@@ -66,8 +66,8 @@ BOLIDE_INLINE struct failure_traits failure_default_traits(void)
     return traits;
 }
 
-/* How much faster damage grows at POINT than plastic strain says, with a band of BAND (NAN: none). A
- * shear band is a few particles wide whatever their size, so that its strain is in proportion to
+/* How much faster damage grows at POINT than plastic strain says, with a band of BAND (NAN: none).
+ * A shear band is a few particles wide whatever their size, so that its strain is in proportion to
  * BAND/size. Full where the mean stress is not tension, none from simple tension (a third of the
  * Mises stress) on, where a body thins as a whole. */
 BOLIDE_INLINE double failing_haste(const struct failing *point, double band, double triaxiality)
