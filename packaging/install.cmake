@@ -21,6 +21,11 @@ install(FILES ${man_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT pro
 install(FILES ${schema} DESTINATION ${share} COMPONENT program)
 install(DIRECTORY materials examples templates DESTINATION ${share} COMPONENT program)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
+find_file(BOLIDE_DYGRAPHS_LICENCE copyright PATHS /usr/share/doc/libjs-dygraphs NO_DEFAULT_PATH)
+if(BOLIDE_DYGRAPHS_LICENCE) # pages hold its script
+    install(FILES ${BOLIDE_DYGRAPHS_LICENCE} DESTINATION ${CMAKE_INSTALL_DOCDIR}
+        RENAME copyright.dygraphs COMPONENT program)
+endif()
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
     PATTERN outputs EXCLUDE)
@@ -54,4 +59,5 @@ file that also says what its result must be.")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS fonts-dejavu-core)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS ffmpeg)
 include(CPack)

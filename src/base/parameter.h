@@ -22,7 +22,9 @@
  *   TABLE      a map with the keys of `table`            the nested struct itself
  *   ONE_OF     {name: {...}} or name, of `kind_of_thing` struct one_of
  *   LIST       a list of such ONE_OF                     struct one_of_list
- *   MAP        {any name: a map of `table`}              struct named_map
+ *   MAP        {any name: a map of `table`}              struct named_map; with `listed` a list of
+ *                                                        names, or one, stands for entries that
+ *                                                        have their names as the first parameter
  *
  * A ONE_OF whose key is NULL stands inline: exactly one key of the surrounding map must be a name
  * of `kind_of_thing` (`{box: {...}, velocity: ...}`). Where a thing's value is a scalar or a list
@@ -67,6 +69,7 @@ struct parameter {
     double above, below;
     bool closed;  /* the bounds themselves are allowed too */
     bool is_path; /* TEXT */
+    bool listed;  /* MAP */
     const char *help;
     const struct parameter
         *table;                /* TABLE, MAP: the nested table, ended by a key and kind of zero */

@@ -160,12 +160,42 @@ struct profile_input {
     int by;                      /* enum profile_by */
 };
 
+/* output.pictures: [pressure, ...], or NAME: {field: pressure, ...} */
+enum picture_view { VIEW_SECTION, VIEW_PERSPECTIVE };
+enum picture_palette { PALETTE_SEQUENTIAL, PALETTE_DIVERGING, PALETTE_CATEGORIES, PALETTE_GREY };
+struct picture_plane {
+    double at[3]; /* m, along each axis; NAN: not given */
+};
+struct picture_window {
+    struct vector_value from, to; /* count 0: not given */
+};
+struct picture_range {
+    struct quantity low, high; /* NAN: not given */
+    struct vector_value percentiles;
+};
+struct picture_schlieren {
+    char *field;
+    double strength;
+};
+struct picture_input {
+    struct name_list field;        /* count 0: the name of the picture */
+    int view, up, palette;         /* -1: not given; up: x, y, z, -x, -y, -z */
+    struct vector_value direction; /* azimuth, elevation, degrees */
+    bool parallel, log, mirror, outlines;
+    struct picture_plane plane;
+    double slab, dot;
+    struct name_list cut, bodies, without;
+    struct picture_window window;
+    struct picture_range range;
+    struct picture_schlieren schlieren;
+};
+
 /* output: {every, pictures: [pressure, ...], ...} */
 struct output_input {
     double every;              /* s, between snapshots; NAN: only the first and the last state */
     double history;            /* s, between rows of history.csv; NAN: a hundredth of the run */
     double checkpoint;         /* s of wall clock between checkpoints; 0: at the end only */
-    struct name_list pictures; /* fields to draw at every snapshot */
+    struct named_map pictures; /* struct picture_input; drawn at every snapshot */
     bool snapshots;            /* write VTKHDF files */
     bool fragments;            /* write fragments.csv and the field `fragment` */
     double fragment_link;      /* up to which their particles are connected (measure/connected.h) */

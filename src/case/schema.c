@@ -275,7 +275,9 @@ static void write_value(struct writer *w, const struct parameter *p)
         end(w, '}');
         break;
     case PARAMETER_MAP:
-        plain(w, "type", "[\"object\", \"null\"]");
+        plain(w, "type",
+              p->listed ? "[\"object\", \"array\", \"string\", \"null\"]"
+                        : "[\"object\", \"null\"]");
         begin(w, "additionalProperties", '{');
         write_map_of(w, p->table);
         end(w, '}');

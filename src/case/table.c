@@ -75,7 +75,10 @@ static const struct parameter output_table[] = {
               "wall-clock time between checkpoints, of which the first is written after a minute "
               "at most; 0: only at the end",
               .unit = "s", .below = INFINITY, .closed = true),
-    PARAMETER(NAMES, struct output_input, pictures, OPTIONAL, "fields to draw at every snapshot"),
+    PARAMETER(MAP, struct output_input, pictures, OPTIONAL,
+              "pictures of every snapshot: a list of fields, or pictures by name. Default: the "
+              "bodies, in 2-D and 3-D",
+              .table = case_picture_table, .size = sizeof(struct picture_input), .listed = true),
     PARAMETER(FLAG, struct output_input, snapshots, "yes",
               "whether snapshots are written as VTKHDF files"),
     PARAMETER(FLAG, struct output_input, fragments, "no",

@@ -22,9 +22,11 @@ struct cli_options {
     int64_t threads, points, ranks_wanted;
     bool overwrite, resume, quick, thorough, all, convergence, curves, record, compare, pilot,
         force;
-    const char *time, *template_name;
+    const char *time, *at, *template_name;
+    const char *fields, *limit, *format, *rate; /* of view and film */
+    int64_t frames;
     const char *key, *from, *to, *check, *within; /* of a search */
-    struct text_list settings, names;
+    struct text_list settings, names, data;
     char **located;            /* the paths of cases that names gives by their folders */
     const struct ranks *ranks; /* all processes that were started together */
 };
@@ -39,6 +41,10 @@ enum command_bit {
     COMMAND_SCHEMA = 512,
     COMMAND_MATERIALS = 1024,
     COMMAND_SEARCH = 2048,
+    COMMAND_PICTURE = 4096,
+    COMMAND_VIEW = 8192,
+    COMMAND_FILM = 16384,
+    COMMAND_COMPARE = 32768,
     COMMAND_HELP = 16
 };
 
@@ -57,6 +63,10 @@ int command_check(const struct cli_options *options);
 int command_verify(const struct cli_options *options);
 int command_exact(const struct cli_options *options);
 int command_report(const struct cli_options *options);
+int command_picture(const struct cli_options *options);
+int command_view(const struct cli_options *options);
+int command_film(const struct cli_options *options);
+int command_compare(const struct cli_options *options);
 int command_new(const struct cli_options *options);
 int command_schema(const struct cli_options *options);
 int command_materials(const struct cli_options *options);

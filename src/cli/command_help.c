@@ -241,7 +241,7 @@ static struct error *print_fields(void)
         print_solver_fields(solvers, 0, false, "every solver", &common);
         for (int i = 0; i < solvers->count; i++)
             print_solver_fields(solvers, i, true, "the solver ", &common);
-        printf("pictures also take material and body, and snapshots and pictures fragment with\n"
+        printf("pictures also take material, body, schlieren, and fragment with\n"
                "output.fragments\n");
     }
     particles_drop(particles);

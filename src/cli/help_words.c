@@ -127,8 +127,8 @@ static const struct answer answers[] = {
      "case must be the same: a run cannot be extended or changed.",
      "tasks/restart.md"},
     {" film movie video animation animate gif ",
-     "Not available as a file. report.html has a player of the pictures of `output.pictures`;\n"
-     "ParaView makes films of snapshots.vtkhdf.series.",
+     "bolide film FOLDER [NAME] joins the frames of a picture to an mp4 with ffmpeg, or to an\n"
+     "animated PNG. report.html has a player of them; bolide view FOLDER writes a page to turn.",
      "tasks/results.md"},
     {" paraview vtk vtkhdf visit ovito python h5py hdf5 csv postprocess postprocessing plot ",
      "Snapshots are VTKHDF files: open snapshots.vtkhdf.series in ParaView, or single files\n"
@@ -147,25 +147,26 @@ static const struct answer answers[] = {
      "`quantile`, `spread` and `mean` of a field.",
      "tasks/results.md"},
     {" colour color colour.map color.map colormap palette colour.range legend ",
-     "Each picture has a colour range of its own, and neither range nor palette can be set. Use\n"
-     "ParaView on snapshots.vtkhdf.series for ranges that stay the same.",
-     "tasks/results.md"},
+     "All frames of a picture share their colours: percentiles of the run, or what `range` says:\n"
+     "  pictures: {speed: {range: {low: 0 m/s, high: 6 km/s}, log: no, palette: sequential}}\n"
+     "`bolide picture FOLDER --set pictures.speed.log=yes` draws again.",
+     "case.md"},
     {" perspective view camera 3d.picture 3d.view render rendering slice section cut.plane clip ",
-     "Pictures of a 3-D run show a slice through the middle, normal to the shortest side of what\n"
-     "there is; the plane cannot be chosen, and there is no perspective. In ParaView open\n"
-     "snapshots.vtkhdf.series: the filter Clip shows any section, Point Gaussian a view.",
-     "tasks/results.md"},
+     "Pictures of a 3-D run are perspectives, cut open at planes of symmetry; `view: section`\n"
+     "shows a plane. Keys: direction, up, cut, plane, slab, window. `bolide picture FOLDER` draws\n"
+     "from the snapshots: --set pictures.body.view=section --set pictures.body.plane.x=2mm.",
+     "case.md"},
     {" schlieren shadowgraph density.gradient ",
-     "Not available as a field. In ParaView open snapshots.vtkhdf.series of a gas run and apply "
-     "the\n"
-     "filter Gradient to `density`; its magnitude is a schlieren picture.",
-     "tasks/results.md"},
-    {" experiment measured.data test.data compare.with.experiment ",
+     "A field of pictures: `pictures: [schlieren]`, of the density; `schlieren: {field: pressure,\n"
+     "strength: 20}` in a picture changes it.",
+     "case.md"},
+    {" experiment measured.data test.data compare.with.experiment compare overlay ",
      "Write the measured value into a check, with its source:\n"
      "  checks: {depth: {crater: {take: depth}, of: plate, is: 12 mm, within: 5 %, source: "
      "\"...\"}}\n"
-     "Curves cannot be read from a file: compare the CSV files of probes with them.",
-     "case.md"},
+     "Curves: bolide compare results/a results/b --data test.csv,time=t:us,value=p:GPa,"
+     "probe=gauge,\nfield=pressure.",
+     "tasks/results.md"},
     {" clamp clamped fixed fix support supported boundary.condition ",
      "With SPH and MPM, a body clamps another that sticks to it: put a body of the same material\n"
      "there, with `driven: yes` and no velocity. A mirror wall lets its face slide. `frozen: yes`\n"

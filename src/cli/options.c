@@ -34,14 +34,37 @@ static const struct option option_table[] = {
     {"--resume", NULL, "continue from the last checkpoint in the folder of the results",
      OPTION_FLAG, AT(resume), COMMAND_RUN | COMMAND_SEARCH},
     {"--threads", "N", "largest number of threads (default: all processors; of a forecast: 1)",
-     OPTION_THREADS, AT(threads), COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_SEARCH},
+     OPTION_THREADS, AT(threads),
+     COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_SEARCH | COMMAND_PICTURE},
     {"--ranks", "N",
      "number of processes that compute a case together; Bolide starts mpirun itself (default: 1)",
      OPTION_COUNT, AT(ranks_wanted), COMMAND_RUN | COMMAND_VERIFY | COMMAND_SEARCH},
     {"--set", "PATH=VALUE",
      "replace a value of the case: run.until=3us; without a value, remove the key; may be repeated",
      OPTION_LIST, AT(settings),
-     COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT | COMMAND_SEARCH},
+     COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT | COMMAND_SEARCH |
+         COMMAND_PICTURE},
+    {"--output", "FILE", "the page (default: view.html in the folder)", OPTION_TEXT, AT(output),
+     COMMAND_VIEW},
+    {"--output", "DIR", "folder of the page (default: compare)", OPTION_TEXT, AT(output),
+     COMMAND_COMPARE},
+    {"--data", "FILE,KEY=...",
+     "a measured series: test.csv,time=t_us:us,value=stress_GPa:GPa,probe=gauge,field=pressure,"
+     "shift=20ns; may be repeated",
+     OPTION_LIST, AT(data), COMMAND_COMPARE},
+    {"--fields", "A,B", "fields that the page has beside the bodies (default: speed,pressure)",
+     OPTION_TEXT, AT(fields), COMMAND_VIEW},
+    {"--frames", "N", "largest number of snapshots on the page (default: 40)", OPTION_COUNT,
+     AT(frames), COMMAND_VIEW},
+    {"--limit", "SIZE",
+     "largest size of the page (default: 20MB): it gets fewer snapshots, then fewer particles",
+     OPTION_TEXT, AT(limit), COMMAND_VIEW},
+    {"--format", "mp4|webm|apng", "of the film (default: mp4, without ffmpeg apng)", OPTION_TEXT,
+     AT(format), COMMAND_FILM},
+    {"--rate", "N", "frames a second (default: 10)", OPTION_TEXT, AT(rate), COMMAND_FILM},
+    {"--at", "TIME|last|all",
+     "the moment to draw, 2us: the snapshot that is nearest (default: all)", OPTION_TEXT, AT(at),
+     COMMAND_PICTURE},
     {"--short", NULL, "replace keys of the case by those in its section `short`, for a quick run",
      OPTION_FLAG, AT(quick),
      COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_EXACT | COMMAND_SEARCH},
@@ -234,6 +257,7 @@ void options_free(struct cli_options *options)
         free(options->located[i]);
     free(options->located);
     free(options->settings.text);
+    free(options->data.text);
     free(options->names.text);
 }
 

@@ -119,15 +119,41 @@ static void read_list(struct reading *reading, const struct node *node, const st
     }
 }
 
+/* The next entry of the map, called NAME; of a list of names it has no keys. */
+static void read_map_entry(struct reading *reading, const struct node *entry, const char *name,
+                           const struct path *path, const struct parameter *parameter,
+                           struct named_map *value)
+{
+    struct path item = {path, name, 0};
+    const int i = value->count++;
+    void *values = (char *)value->items + (size_t)i * parameter->size;
+    const struct node empty = {.kind = NODE_MAP, .place = entry->place, .key_place = entry->place};
+    value->names[i] = text_copy(name);
+    if (!value->names[i] || !name_index_add(&value->index, value->names[i], i))
+        complain_memory(reading);
+    else if (entry->broken)
+        mark_wrong(reading, &item);
+    else if (!name[0])
+        complain(reading, entry->key_place, path, "a name cannot be empty");
+    else if (entry->implied && !parameter->listed)
+        complain(reading, entry->key_place, &item, "there is no such entry");
+    else if (entry->kind != NODE_MAP && name != entry->text)
+        complain_kind(reading, entry, &item, "a map");
+    else
+        read_table(reading, entry->kind == NODE_MAP ? entry : &empty, &item, parameter->table,
+                   values);
+}
+
 static void read_map(struct reading *reading, const struct node *node, const struct path *path,
                      const struct parameter *parameter, struct named_map *value)
 {
-    bool empty = node_is_empty(node);
-    if (node->kind != NODE_MAP && !empty) {
+    const bool empty = node_is_empty(node), alone = parameter->listed && node->kind == NODE_SCALAR;
+    const bool list = parameter->listed && node->kind == NODE_LIST;
+    if (node->kind != NODE_MAP && !empty && !list && !alone) {
         complain_kind(reading, node, path, "a map of names");
         return;
     }
-    int count = empty ? 0 : node->count;
+    int count = empty ? 0 : alone ? 1 : node->count;
     value->names = calloc((size_t)count + 1, sizeof *value->names);
     value->items = memory_allocate((size_t)count * parameter->size);
     if (!value->names || !value->items) {
@@ -135,23 +161,16 @@ static void read_map(struct reading *reading, const struct node *node, const str
         return;
     }
     for (int i = 0; i < count; i++) {
-        const struct node *entry = node->child[i];
-        struct path item = {path, entry->key, 0};
-        value->names[i] = text_copy(entry->key);
-        value->count = i + 1;
-        if (!value->names[i] || !name_index_add(&value->index, value->names[i], i))
-            complain_memory(reading);
-        else if (entry->broken)
-            mark_wrong(reading, &item);
-        else if (!entry->key[0])
-            complain(reading, entry->key_place, path, "a name cannot be empty");
-        else if (entry->implied)
-            complain(reading, entry->key_place, &item, "there is no such entry");
-        else if (entry->kind != NODE_MAP)
-            complain_kind(reading, entry, &item, "a map");
+        const struct node *entry = alone ? node : node->child[i];
+        struct path item = {path, NULL, i + 1};
+        if (node->kind == NODE_MAP)
+            read_map_entry(reading, entry, entry->key, path, parameter, value);
+        else if (entry->kind != NODE_SCALAR || node_is_empty(entry))
+            complain_kind(reading, entry, &item, "a name");
+        else if (name_index_find(&value->index, entry->text) >= 0)
+            complain(reading, entry->place, &item, "\"%.60s\" is there twice", entry->text);
         else
-            read_table(reading, entry, &item, parameter->table,
-                       (char *)value->items + (size_t)i * parameter->size);
+            read_map_entry(reading, entry, entry->text, path, parameter, value);
     }
 }
 

@@ -69,6 +69,8 @@ static bool is_given(const struct parameter *parameter, const void *value)
         return ((const struct name_list *)value)->count > 0;
     case PARAMETER_ONE_OF:
         return ((const struct one_of *)value)->choice;
+    case PARAMETER_MAP: /* an empty list means something */
+        return !parameter->listed || ((const struct named_map *)value)->names;
     default:
         return true;
     }

@@ -233,14 +233,10 @@ static void fill_ghosts(const void *context, int64_t begin, int64_t end, void *o
         ((unsigned char *)out)[i - begin] = population_has(cells, (int32_t)i) ? 0 : VTK_HIDDEN_CELL;
 }
 
-/* Whether a snapshot has the column: positions are "Points", and cells of gas have no stress but
- * their pressure. */
-static bool is_written(const struct population *population, const char *name)
+bool snapshot_has(const struct population *population, const char *column)
 {
-    if (population->kind == POPULATION_OF_CELLS &&
-        (!strcmp(name, "stress") || !strcmp(name, "equivalent_stress")))
-        return false;
-    return strcmp(name, "position") != 0;
+    return population->kind != POPULATION_OF_CELLS ||
+           (strcmp(column, "stress") != 0 && strcmp(column, "equivalent_stress") != 0);
 }
 
 static void write_fields(struct writing *w, int64_t count)
@@ -257,7 +253,7 @@ static void write_fields(struct writing *w, int64_t count)
         write_dataset(w, &(struct dataset){ghost_name, H5T_NATIVE_UINT8, count, p->count, 1, 1,
                                            fill_ghosts, p, NULL});
     for (int i = 0; i < p->columns; i++)
-        if (is_written(p, p->column[i].name))
+        if (strcmp(p->column[i].name, "position") != 0 && snapshot_has(p, p->column[i].name))
             write_column(w, &p->column[i], count);
 }
 

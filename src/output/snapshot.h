@@ -12,6 +12,9 @@
 struct error *snapshot_write(const char *path, const struct simulation *simulation,
                              const struct population *population);
 
+/* Whether a snapshot of POPULATION has COLUMN: cells of gas have no stress but their pressure. */
+bool snapshot_has(const struct population *population, const char *column);
+
 /* Writes FOLDER/snapshots.vtkhdf.series that lists COUNT snapshots, file names as given, with their
  * times in seconds. */
 struct error *snapshot_series_write(const char *path, int count, const char *const *files,

@@ -322,19 +322,38 @@ static void put_probe_plot(const struct page *page, struct page_plot *plot, cons
     plot->series_count = 0;
 }
 
-/* One plot for all columns of the same unit, or more where they are many. */
+/* What a column is of: columns of one quantity share a plot, whatever else has its unit. */
+static const char *quantity_of(const struct column *column)
+{
+    static const char *const words[][2] = {
+        {"sound", "sound speed"},       {"velocity", "velocity"}, {"speed", "velocity"},
+        {"stress", "stress"},           {"pressure", "stress"},   {"density", "density"},
+        {"temperature", "temperature"}, {"strain", "strain"},     {"damage", "damage"},
+        {"displacement", "position"},   {"position", "position"}, {"low", "position"},
+        {"high", "position"},           {"energy", "energy"}};
+    for (size_t i = 0; i < COUNT_OF(words); i++)
+        if (strstr(column->name, words[i][0]))
+            return words[i][1];
+    return "";
+}
+
+static bool same_quantity(const struct column *a, const struct column *b)
+{
+    return !strcmp(a->unit, b->unit) && !strcmp(quantity_of(a), quantity_of(b));
+}
+
+/* One plot for all columns of a quantity, or more where they are many. */
 static void plot_probe(const struct page *page, const struct table *table, const char *name)
 {
     for (int i = 1; i < table->columns; i++) {
-        const char *unit = table->column[i].unit;
         bool plotted = false;
         for (int k = 1; k < i; k++)
-            plotted |= !strcmp(table->column[k].unit, unit);
+            plotted |= same_quantity(&table->column[k], &table->column[i]);
         if (plotted)
             continue;
         struct page_plot plot = plot_over_time(table, name);
         for (int k = i; k < table->columns; k++)
-            if (!strcmp(table->column[k].unit, unit) &&
+            if (same_quantity(&table->column[k], &table->column[i]) &&
                 !add(&plot, table->column[k].name, &table->column[k])) {
                 put_probe_plot(page, &plot, name);
                 add(&plot, table->column[k].name, &table->column[k]);
@@ -374,9 +393,11 @@ static struct error *each_probe(const struct page *page, bool plots, bool *liste
         if (!error)
             error = table_make(&csv, &table);
         names[i][strlen(names[i]) - 4] = '\0';
-        if (!error && plots)
+        if (!error && plots) {
+            fputs("<div class=\"plots\">\n", page->file); /* with a common cursor */
             plot_probe(page, &table, names[i]);
-        else if (!error)
+            fputs("</div>\n", page->file);
+        } else if (!error)
             list_wave(page, &table, names[i], listed);
         table_free(&table);
         csv_free(&csv);
@@ -399,12 +420,11 @@ struct error *page_history(const struct page *page)
         plot_mass(page, &table);
         plot_extremes(page, &table);
         plot_step(page, &table);
+        fputs("</div>\n", page->file);
     } else
-        fputs("<p>There is no history: history.csv has no row.</p>\n<div class=\"plots\">\n",
-              page->file);
+        fputs("<p>There is no history: history.csv has no row.</p>\n", page->file);
     bool listed = false;
     struct error *error = each_probe(page, true, &listed);
-    fputs("</div>\n", page->file);
     if (!error)
         error = each_probe(page, false, &listed);
     if (listed)

@@ -24,7 +24,8 @@ struct page {
 struct error *page_read_table(const char *folder, const char *name, struct csv *csv);
 
 void page_head(const struct page *page, const char *title);
-void page_foot(const struct page *page);
+/* PLOTS: the page has some. */
+void page_foot(const struct page *page, bool plots);
 
 /* text.c */
 
@@ -37,6 +38,9 @@ enum { QUANTITY_TEXT = 160 };
  * "2.66e-19", "" gives "2.66 × 10⁻¹⁹". Returns BUFFER of QUANTITY_TEXT bytes. */
 const char *quantity_text(double value, const char *unit, char *buffer);
 void page_quantity(FILE *file, double value, const char *unit);
+
+/* TEXT as JSON that may stand in a script. */
+void page_json_text(FILE *file, const char *text);
 
 /* SIZE bytes as base64. */
 void page_base64(FILE *file, const unsigned char *bytes, size_t size);
@@ -91,13 +95,13 @@ struct study;
 /* Writes FOLDER/convergence.html, with the picture convergence.png that lies there. */
 struct error *page_study(const char *folder, const struct study *study);
 
-/* plot.c: a line plot as inline SVG. */
+/* plot.c: a line plot, which a script of the page draws. */
 
 enum { PLOT_SERIES = 12 };
 struct page_series {
     char label[160];
-    const double *value; /* SI */
-    bool dashed;
+    const double *value;      /* SI */
+    bool dashed, dots;        /* dots: points without a line */
     bool optional;            /* left out where it is but a billionth of the largest series */
     const double *low, *high; /* edges of a band about it; NULL: none */
 };

@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "page/assets.h"
 #include "page/internal.h"
 
 /* A folder may hold files of any size; what is larger than this does not fit on a page. */
@@ -32,7 +33,8 @@ void page_head(const struct page *page, const char *title)
           "<meta name=\"color-scheme\" content=\"light dark\">\n<title>",
           page->file);
     page_text(page->file, title);
-    fprintf(page->file, "</title>\n<style>\n%s</style>\n</head>\n<body>\n", page_style);
+    fprintf(page->file, "</title>\n<style>\n%s%s</style>\n</head>\n<body>\n", asset_dygraphs_style,
+            page_style);
 }
 
 /* "demo · 2-D · sph · 4928 particles · until 2 ns" */
@@ -79,12 +81,13 @@ static struct error *put_file(const struct page *page, const char *name, const c
     return error;
 }
 
-void page_foot(const struct page *page)
+void page_foot(const struct page *page, bool plots)
 {
-    fprintf(page->file,
-            "</main>\n<footer><p>Made by Bolide.</p></footer>\n<script>\n%s</script>\n</body>\n"
-            "</html>\n",
-            page_script);
+    fputs("</main>\n<footer><p>Made by Bolide.</p></footer>\n", page->file);
+    if (plots)
+        fprintf(page->file, "<script>\n%s</script>\n<script>\n%s</script>\n", asset_dygraphs,
+                asset_plots);
+    fprintf(page->file, "<script>\n%s</script>\n</body>\n</html>\n", page_script);
 }
 
 static struct error *put_page(const struct page *page)
@@ -99,7 +102,7 @@ static struct error *put_page(const struct page *page)
     if (page->sweep.rows) {
         page_sweep(page);
         TRY(page_pictures(page));
-        page_foot(page);
+        page_foot(page, false);
         return NULL;
     }
     page_verdict(page);
@@ -112,7 +115,7 @@ static struct error *put_page(const struct page *page)
     TRY(put_file(page, "case.yaml", "The case as run, with all defaults (case.yaml)"));
     TRY(put_file(page, "run.log", "What the run said (run.log)"));
     fputs("</section>\n", page->file);
-    page_foot(page);
+    page_foot(page, true);
     return NULL;
 }
 

@@ -6,10 +6,11 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "page/internal.h"
+#include "picture/picture.h"
 
 enum {
-    FRAMES_MAX = 40,             /* of one field */
-    FRAME_BYTES_MAX = 3500000,   /* of all frames together: the page stays below 5 MB */
+    FRAME_BYTES_MAX = 3400000,   /* of all frames together: the page stays below 5 MB */
+    SHRINK_MAX = 8,              /* frames have so many times fewer pixels on a side at most */
     PICTURE_BYTES_MAX = 1000000, /* of any other picture */
     PRINTED_FRAMES = 4
 };
@@ -25,6 +26,7 @@ struct pictures {
     char **names;
     struct picture *item;
     char *folder;
+    int shrink; /* of frames */
 };
 
 static bool starts(const char *text, const char *start)
@@ -91,16 +93,20 @@ static struct error *pictures_find(const char *folder, struct pictures *pictures
     return NULL;
 }
 
-/* *BYTES is NULL where the file is too large for a page. */
+/* *BYTES is NULL where the file is too large for a page, or no picture. */
 static struct error *read_picture(const struct pictures *pictures, const struct picture *picture,
-                                  char **bytes, size_t *size)
+                                  int shrink, char **bytes, size_t *size)
 {
     *bytes = NULL;
     *size = 0;
     char *path = path_join(pictures->folder, picture->name);
-    struct error *error = !path                               ? out_of_memory_for("a report")
-                          : file_size(path) > FRAME_BYTES_MAX ? NULL
-                                                              : file_read(path, bytes, size);
+    struct error *error = NULL;
+    if (!path)
+        error = out_of_memory_for("a report");
+    else if (shrink > 1)
+        error_free(picture_shrink(path, shrink, bytes, size));
+    else if (file_size(path) <= FRAME_BYTES_MAX)
+        error = file_read(path, bytes, size);
     free(path);
     return error;
 }
@@ -142,7 +148,7 @@ static struct error *put_frame(const struct page *page, const struct pictures *p
 {
     char *bytes, time[QUANTITY_TEXT];
     size_t size;
-    TRY(read_picture(pictures, frame, &bytes, &size));
+    TRY(read_picture(pictures, frame, pictures->shrink, &bytes, &size));
     if (!frame_time(page, frame, time))
         snprintf(time, sizeof time, "picture %lld", frame->number);
     if (is_png(bytes, size)) {
@@ -161,16 +167,21 @@ static struct error *put_frame(const struct page *page, const struct pictures *p
     return NULL;
 }
 
-/* The part of all frames that is shown, so that their bytes stay within the bound. */
-static double frames_within(const struct pictures *pictures)
+/* Frames are so much smaller, and the part of them that is returned is shown, that their bytes stay
+ * within the bound. A picture of a quarter of the pixels takes a third of the bytes. */
+static double fit_frames(struct pictures *pictures)
 {
-    double all = 1.0;
+    double all = 1.0, least;
     for (int i = 0; i < pictures->count; i++) {
         char *path = path_join(pictures->folder, pictures->item[i].name);
         all += path && pictures->item[i].field_length ? (double)file_size(path) : 0.0;
         free(path);
     }
-    return minimum(1.0, FRAME_BYTES_MAX / all);
+    pictures->shrink = 0;
+    do
+        least = all / pow(++pictures->shrink, 1.5);
+    while (least > FRAME_BYTES_MAX && pictures->shrink < SHRINK_MAX);
+    return minimum(1.0, FRAME_BYTES_MAX / least);
 }
 
 /* The INDEX-th of SHOWN evenly chosen ones of COUNT, the last one always among them. */
@@ -182,7 +193,7 @@ static int evenly(int index, int shown, int count)
 static struct error *put_player(const struct page *page, const struct pictures *pictures,
                                 const struct picture *frames, int count, double part)
 {
-    int shown = (int)minimum(count, maximum(2.0, minimum(part * count, FRAMES_MAX)));
+    int shown = (int)minimum(count, maximum(2.0, part * count));
     char *field = text_copy_part(frames->name, (size_t)frames->field_length);
     if (!field)
         return out_of_memory_for("a report");
@@ -217,14 +228,14 @@ static int behind_field(const struct pictures *pictures, int i)
     return next;
 }
 
-static struct error *put_players(const struct page *page, const struct pictures *pictures)
+static struct error *put_players(const struct page *page, struct pictures *pictures)
 {
     bool any = false;
     for (int i = 0; i < pictures->count; i++)
         any |= pictures->item[i].field_length > 0;
     if (!any)
         return NULL;
-    double part = frames_within(pictures);
+    double part = fit_frames(pictures);
     fputs("<section id=\"fields\"><h2>Fields over time</h2>\n", page->file);
     for (int i = 0, next; i < pictures->count; i = next) {
         next = behind_field(pictures, i);
@@ -243,7 +254,7 @@ static struct error *put_single(const struct page *page, const struct pictures *
     size_t size;
     bool profile = starts(picture->name, check);
     const char *start = picture->name + (profile ? strlen(check) : 0);
-    TRY(read_picture(pictures, picture, &bytes, &size));
+    TRY(read_picture(pictures, picture, 1, &bytes, &size));
     name = text_copy_part(start, strlen(start) - 4);
     if (name && is_png(bytes, size) && size <= PICTURE_BYTES_MAX) {
         fputs("<figure><img alt=\"", page->file);

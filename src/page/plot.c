@@ -1,36 +1,14 @@
-/* Line plots of report.html as inline SVG. Their colours come from the page's style, so that they
- * suit light, dark and paper; letters keep their size from a telephone to a desk. */
+/* Line plots of report.html: their data as JSON, which plots.js draws with dygraphs, and their
+ * words for who cannot see them. */
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "page/internal.h"
 
-enum {
-    WIDTH = 400,
-    HEIGHT = 220,
-    RIGHT = 12,
-    TOP = 10,
-    BOTTOM = 38,
-    COLUMNS = 400 /* of points: more than the plot has pixels are not told apart */
-};
-
-/* The plot's area and what it shows. */
-struct frame {
-    double left;
-    struct range x, y;
-    struct ticks x_ticks, y_ticks;
-};
-
-static double place_x(const struct frame *frame, double value)
-{
-    double part = (value - frame->x.low) / (frame->x.high - frame->x.low);
-    return frame->left + part * (WIDTH - RIGHT - frame->left);
-}
-
-static double place_y(const struct frame *frame, double value)
-{
-    double part = (value - frame->y.low) / (frame->y.high - frame->y.low);
-    return HEIGHT - BOTTOM - part * (HEIGHT - BOTTOM - TOP);
-}
+/* Parts of time and variation together: of the points in each the first, lowest, highest and last
+ * are kept. A short pulse takes many of them, a long rest few. */
+enum { PARTS = 1200, COLOURS = 6 };
 
 static struct range range_of(const double *values, int64_t count)
 {
@@ -62,147 +40,124 @@ static int choose_series(const struct page_plot *plot, bool *shown)
     return count;
 }
 
-/* The points of one column of pixels, drawn as their first, lowest, highest and last. */
-struct stroke {
-    FILE *file;
-    const struct frame *frame;
-    bool begun, drawing;
-    int column;
-    double x, first, low, high, last;
-};
-
-static void stroke_point(struct stroke *stroke, double y)
+static void put_number(FILE *file, double value, int digits)
 {
-    fprintf(stroke->file, "%s%.1f %.1f", stroke->drawing ? "L" : "M", stroke->x,
-            place_y(stroke->frame, y));
-    stroke->drawing = true;
+    if (isfinite(value))
+        fprintf(file, "%.*g", digits, value);
+    else
+        fputs("null", file);
 }
 
-static void stroke_flush(struct stroke *stroke)
+/* How far point I lies from the one before, as a part of all time, and of each series' range. */
+static double step_at(const struct page_plot *plot, const bool *shown, const struct range *range,
+                      double length, int64_t i)
 {
-    if (!stroke->begun)
-        return;
-    stroke_point(stroke, stroke->first);
-    if (stroke->low < minimum(stroke->first, stroke->last))
-        stroke_point(stroke, stroke->low);
-    if (stroke->high > maximum(stroke->first, stroke->last))
-        stroke_point(stroke, stroke->high);
-    if (stroke->last != stroke->first)
-        stroke_point(stroke, stroke->last);
-    stroke->begun = false;
-}
-
-/* The part of a band from FIRST on that has no gap; returns what is behind it. */
-static int64_t draw_band_part(FILE *file, const struct frame *frame, const struct page_plot *plot,
-                              const struct page_series *series, int64_t first)
-{
-    int64_t end = first;
-    for (; end < plot->count && isfinite(series->low[end]) && isfinite(series->high[end]); end++)
-        fprintf(file, "%s%.1f %.1f", end == first ? "M" : "L", place_x(frame, plot->x[end]),
-                place_y(frame, series->high[end]));
-    for (int64_t i = end; i > first; i--)
-        fprintf(file, "L%.1f %.1f", place_x(frame, plot->x[i - 1]),
-                place_y(frame, series->low[i - 1]));
-    if (end > first)
-        fputc('Z', file);
-    return end > first ? end : first + 1;
-}
-
-static void draw_band(FILE *file, const struct frame *frame, const struct page_plot *plot,
-                      int index)
-{
-    const struct page_series *series = &plot->series[index];
-    if (!series->low)
-        return;
-    fprintf(file, "<path class=\"band b%d\" d=\"", index % 6);
-    for (int64_t i = 0; i < plot->count;)
-        i = draw_band_part(file, frame, plot, series, i);
-    fputs("\"/>\n", file);
-}
-
-static void draw_series(FILE *file, const struct frame *frame, const struct page_plot *plot,
-                        int index)
-{
-    const struct page_series *series = &plot->series[index];
-    struct stroke stroke = {.file = file, .frame = frame};
-    fprintf(file, "<path class=\"s%d%s\" d=\"", index % 6, series->dashed ? " dashed" : "");
-    for (int64_t i = 0; i < plot->count; i++) {
-        double x = plot->x[i], y = series->value[i];
-        if (!isfinite(x) || !isfinite(y)) {
-            stroke_flush(&stroke);
-            stroke.drawing = false;
-            continue;
-        }
-        int column = (int)((x - frame->x.low) / (frame->x.high - frame->x.low) * COLUMNS);
-        if (stroke.begun && stroke.column == column) {
-            stroke.low = minimum(stroke.low, y);
-            stroke.high = maximum(stroke.high, y);
-            stroke.last = y;
-            continue;
-        }
-        stroke_flush(&stroke);
-        stroke = (struct stroke){file, frame, true, stroke.drawing, column, place_x(frame, x), y,
-                                 y,    y,     y};
+    double step = length > 0.0 ? fabs(plot->x[i] - plot->x[i - 1]) / length : 0.0;
+    for (int s = 0; s < plot->series_count; s++) {
+        const double *value = plot->series[s].value;
+        const double span = range[s].high - range[s].low;
+        if (shown[s] && span > 0.0 && isfinite(value[i]) && isfinite(value[i - 1]))
+            step += fabs(value[i] - value[i - 1]) / span;
     }
-    stroke_flush(&stroke);
-    fputs("\"/>\n", file);
+    return isfinite(step) ? step : 0.0;
 }
 
-/* Letters of a tick, of which "−" takes more bytes than one. */
-static int letters(const char *text)
+/* Marks in KEPT, by the points, which are shown; NULL stands for all. */
+static bool *thin(const struct page_plot *plot, const bool *shown)
 {
-    int count = 0;
-    for (; *text; text++)
-        count += ((unsigned char)*text & 0xC0) != 0x80;
-    return count;
-}
-
-static void draw_axes(FILE *file, const struct frame *frame, const char *x_label)
-{
-    double bottom = HEIGHT - BOTTOM, right = WIDTH - RIGHT;
-    fputs("<g class=\"axes\">\n", file);
-    for (int i = 0; i < frame->y_ticks.count; i++) {
-        double y = place_y(frame, frame->y_ticks.at[i]);
-        fprintf(file,
-                "<path d=\"M%.1f %.1fH%.1f\"/><text class=\"y\" x=\"%.1f\" y=\"%.1f\">%s</text>\n",
-                frame->left, y, right, frame->left - 6.0, y + 4.0, frame->y_ticks.text[i]);
-    }
-    for (int i = 0; i < frame->x_ticks.count; i++) {
-        double x = place_x(frame, frame->x_ticks.at[i]);
-        fprintf(file,
-                "<path d=\"M%.1f %dV%.1f\"/><text class=\"x\" x=\"%.1f\" y=\"%.1f\">%s</text>\n", x,
-                TOP, bottom, x, bottom + 15.0, frame->x_ticks.text[i]);
-    }
-    fprintf(file, "<text class=\"x\" x=\"%.1f\" y=\"%d\">", 0.5 * (frame->left + right),
-            HEIGHT - 6);
-    page_text(file, x_label);
-    fputs("</text></g>\n", file);
-}
-
-/* Ranges and ticks; names the multiples of the units. */
-static struct frame make_frame(const struct page_plot *plot, const bool *shown,
-                               struct multiple *x_unit, struct multiple *y_unit)
-{
-    struct frame frame = {.x = range_of(plot->x, plot->count), .y = range_empty()};
+    struct range range[PLOT_SERIES];
+    const struct range time = range_of(plot->x, plot->count);
+    const double length = time.high - time.low;
+    double total = 0.0, sum = 0.0;
+    bool *kept = plot->count > 4 * PARTS ? memory_allocate((size_t)plot->count) : NULL;
+    if (!kept)
+        return NULL;
     for (int s = 0; s < plot->series_count; s++)
-        for (int64_t i = 0; shown[s] && i < plot->count; i++) {
-            range_include(&frame.y, plot->series[s].value[i]);
-            if (plot->series[s].low) {
-                range_include(&frame.y, plot->series[s].low[i]);
-                range_include(&frame.y, plot->series[s].high[i]);
-            }
+        range[s] = range_of(plot->series[s].value, plot->count);
+    for (int64_t i = 1; i < plot->count; i++)
+        total += step_at(plot, shown, range, length, i);
+    for (int64_t first = 0, i = 1; i <= plot->count; i++) {
+        const double before = floor(sum / total * PARTS);
+        if (i < plot->count) {
+            sum += step_at(plot, shown, range, length, i);
+            if (floor(sum / total * PARTS) == before)
+                continue;
         }
-    frame.x = range_drawable(frame.x, false);
-    frame.y = range_padded(range_drawable(frame.y, false), 0.06, false);
-    *x_unit = multiple_find(range_reach(frame.x), plot->x_unit);
-    *y_unit = multiple_find(range_reach(frame.y), plot->unit);
-    frame.x_ticks = ticks_linear(frame.x, x_unit->scale, 6);
-    frame.y_ticks = ticks_linear(frame.y, y_unit->scale, 7);
-    int longest = 1;
-    for (int i = 0; i < frame.y_ticks.count; i++)
-        longest = (int)maximum(longest, letters(frame.y_ticks.text[i]));
-    frame.left = minimum(14.0 + 6.5 * longest, 0.5 * WIDTH);
-    return frame;
+        kept[first] = kept[i - 1] = true;
+        for (int s = 0; s < plot->series_count; s++) {
+            const double *value = plot->series[s].value;
+            int64_t low = first, high = first;
+            for (int64_t k = first; k < i && shown[s]; k++) {
+                low = value[k] < value[low] ? k : low;
+                high = value[k] > value[high] ? k : high;
+            }
+            kept[low] = kept[high] = true;
+        }
+        first = i;
+    }
+    return kept;
+}
+
+static void put_column(FILE *file, const double *value, double scale, int64_t count,
+                       const bool *kept, int digits)
+{
+    fputc('[', file);
+    for (int64_t i = 0, put = 0; i < count; i++) {
+        if (kept && !kept[i])
+            continue;
+        if (put++)
+            fputc(',', file);
+        put_number(file, value[i] / scale, digits);
+    }
+    fputc(']', file);
+}
+
+/* The multiples of the units that suit what is shown. */
+static void find_units(const struct page_plot *plot, const bool *shown, struct multiple *x,
+                       struct multiple *y)
+{
+    double reach = 0.0;
+    for (int s = 0; s < plot->series_count; s++)
+        if (shown[s])
+            reach = maximum(reach, reach_of(plot->series[s].value, plot->count));
+    *x = multiple_find(reach_of(plot->x, plot->count), plot->x_unit);
+    *y = multiple_find(reach, plot->unit);
+}
+
+static void put_data(FILE *file, const struct page_plot *plot, const bool *shown,
+                     const struct multiple *x, const struct multiple *y)
+{
+    bool *kept = thin(plot, shown);
+    int put = 0;
+    fprintf(file,
+            "<script type=\"application/json\">{\"rows\":%lld,\"x\":", (long long)plot->count);
+    page_json_text(file, plot->x_name);
+    fputs(",\"xunit\":", file);
+    page_json_text(file, x->name);
+    fputs(",\"unit\":", file);
+    page_json_text(file, y->name);
+    fputs(",\"at\":", file);
+    put_column(file, plot->x, x->scale, plot->count, kept, 10);
+    fputs(",\"series\":[", file);
+    for (int s = 0; s < plot->series_count; s++) {
+        const struct page_series *series = &plot->series[s];
+        if (!shown[s])
+            continue;
+        fprintf(file, "%s{\"name\":", put++ ? "," : "");
+        page_json_text(file, series->label);
+        fprintf(file, ",\"colour\":%d,\"dashed\":%d,\"dots\":%d,\"value\":", s, series->dashed,
+                series->dots);
+        put_column(file, series->value, y->scale, plot->count, kept, 6);
+        if (series->low) {
+            fputs(",\"low\":", file);
+            put_column(file, series->low, y->scale, plot->count, kept, 6);
+            fputs(",\"high\":", file);
+            put_column(file, series->high, y->scale, plot->count, kept, 6);
+        }
+        fputc('}', file);
+    }
+    fputs("]}</script>", file);
+    free(kept);
 }
 
 static void draw_caption(FILE *file, const struct page_plot *plot, const bool *shown, int count,
@@ -219,7 +174,7 @@ static void draw_caption(FILE *file, const struct page_plot *plot, const bool *s
         fputs("<span class=\"legend\">", file);
         for (int s = 0; s < plot->series_count; s++)
             if (shown[s]) {
-                fprintf(file, "<span class=\"k%d%s\">", s % 6,
+                fprintf(file, "<span class=\"k%d%s\">", s % COLOURS,
                         plot->series[s].dashed ? " dashed" : "");
                 page_text(file, plot->series[s].label);
                 fputs("</span> ", file);
@@ -267,22 +222,12 @@ void page_plot(FILE *file, const struct page_plot *plot)
     int count = choose_series(plot, shown);
     if (!count)
         return;
-    struct frame frame = make_frame(plot, shown, &x_unit, &y_unit);
-    char x_label[UNIT_TEXT + 96];
-    snprintf(x_label, sizeof x_label, *x_unit.name ? "%.90s (%s)" : "%.90s%s", plot->x_name,
-             x_unit.name);
+    find_units(plot, shown, &x_unit, &y_unit);
     fputs("<figure class=\"plot\">", file);
     draw_caption(file, plot, shown, count, y_unit.name);
-    fprintf(file, "<svg viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"", WIDTH, HEIGHT);
+    fputs("<div class=\"chart\" role=\"img\" aria-label=\"", file);
     draw_words(file, plot, shown);
-    fputs("\">\n", file);
-    draw_axes(file, &frame, x_label);
-    for (int s = 0; s < plot->series_count; s++)
-        if (shown[s])
-            draw_band(file, &frame, plot, s);
-    for (int s = 0; s < plot->series_count; s++)
-        if (shown[s])
-            draw_series(file, &frame, plot, s);
-    fprintf(file, "<rect x=\"%.1f\" y=\"%d\" width=\"%.1f\" height=\"%d\"/></svg></figure>\n",
-            frame.left, TOP, WIDTH - RIGHT - frame.left, HEIGHT - BOTTOM - TOP);
+    fputs("\"></div>\n", file);
+    put_data(file, plot, shown, &x_unit, &y_unit);
+    fputs("</figure>\n", file);
 }

@@ -249,7 +249,7 @@ struct error *page_study(const char *folder, const struct study *study)
         put_errors(page.file, study);
         put_extrapolations(page.file, study);
         put_words(page.file);
-        page_foot(&page);
+        page_foot(&page, false);
         error = file_end(path, page.file);
     }
     free(bytes);

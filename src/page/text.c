@@ -115,3 +115,14 @@ void page_base64(FILE *file, const unsigned char *bytes, size_t size)
         fputc(left > 2 ? digits[group & 63] : '=', file);
     }
 }
+
+void page_json_text(FILE *file, const char *text)
+{
+    fputc('"', file);
+    for (; *text; text++)
+        if (*text == '"' || *text == '\\' || *text == '<' || (unsigned char)*text < ' ')
+            fprintf(file, "\\u%04x", (unsigned char)*text);
+        else
+            fputc(*text, file);
+    fputc('"', file);
+}

@@ -7,7 +7,6 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "picture/internal.h"
-#include "picture/png.h"
 
 static const struct colour frame_colour = {0.35, 0.35, 0.35};
 static const struct colour grid_colour = {0.89, 0.89, 0.89};
@@ -47,6 +46,14 @@ void canvas_destroy(struct canvas *canvas)
     canvas->surface = NULL;
 }
 
+struct png_image canvas_image(cairo_surface_t *surface)
+{
+    cairo_surface_flush(surface);
+    return (struct png_image){
+        cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface),
+        (size_t)cairo_image_surface_get_stride(surface), cairo_image_surface_get_data(surface)};
+}
+
 struct error *canvas_publish(const struct canvas *canvas, const char *path, bool own_folder)
 {
     char *beside;
@@ -54,11 +61,7 @@ struct error *canvas_publish(const struct canvas *canvas, const char *path, bool
         TRY(file_check_folder(path));
     TRY(file_clear_beside(path, &beside));
     const cairo_status_t status = cairo_status(canvas->pen);
-    cairo_surface_flush(canvas->surface);
-    const struct png_image image = {cairo_image_surface_get_width(canvas->surface),
-                                    cairo_image_surface_get_height(canvas->surface),
-                                    (size_t)cairo_image_surface_get_stride(canvas->surface),
-                                    cairo_image_surface_get_data(canvas->surface)};
+    const struct png_image image = canvas_image(canvas->surface);
     const bool drawn = status == CAIRO_STATUS_SUCCESS;
     struct error *error = NULL;
     if (drawn && png_write(beside, &image)) {

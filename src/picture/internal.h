@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "model/columns.h"
 #include "model/simulation.h"
+#include "picture/png.h"
 #include "picture/scale.h"
 
 enum { PIXELS_PER_POINT = 2, LEGEND_ROW = 18, LABEL_TEXT = 128 };
@@ -24,6 +25,9 @@ void canvas_destroy(struct canvas *canvas);
 
 /* Writes the picture to PATH as PNG; OWN_FOLDER: in a folder of the run, which is no link. */
 struct error *canvas_publish(const struct canvas *canvas, const char *path, bool own_folder);
+
+/* The pixels of SURFACE, which is RGB24, with what has been drawn. */
+struct png_image canvas_image(cairo_surface_t *surface);
 
 enum text_style { TEXT_TITLE, TEXT_NOTE, TEXT_LABEL, TEXT_TICK };
 
@@ -69,36 +73,8 @@ void axes_frame(const struct canvas *canvas, const struct axis *x, const struct 
 /* Ticks of a horizontal axis below y, with its label. */
 void axis_draw_below(const struct canvas *canvas, const struct axis *axis, double y);
 
-/* The pixels of an image that may be painted: columns left .. right - 1, rows top .. bottom - 1;
- * the data begin with FIRST_ROW. */
-struct pixels {
-    uint32_t *data;
-    int64_t stride; /* in pixels */
-    int first_row;
-    int left, right, top, bottom;
-};
-
-/* Paint a square (edges rounded to pixels, one at least), or a disc with a smooth rim (a square,
- * where it would be no more than a few pixels), about (x, y) in pixels. */
-typedef void paint_function(const struct pixels *pixels, double x, double y, double diameter,
-                            struct colour colour);
-paint_function paint_square, paint_disc;
-
-/* What is shown of the particles: a component of a column of a population, or a category. */
-struct shown {
-    const struct population *population;
-    const struct column *column; /* NULL: a category */
-    int component;
-    const uint16_t *category; /* of each particle; NULL also where there is none */
-    const struct named_map *names;
-};
-
-/* Finds FIELD; ERROR_INPUT, not located, when there is none or it has several components. */
-struct error *shown_find(const struct simulation *simulation, const struct population *population,
-                         const char *field, struct shown *shown);
-
-/* The values of particles begin .. end - 1. */
-void shown_read(const struct shown *shown, int64_t begin, int64_t end, double *out);
+/* "plastic strain" of "plastic_strain", "velocity x" of "velocity.x". */
+void field_text(const char *field, char *buffer, size_t size);
 
 enum legend_mark { MARK_NONE, MARK_DOT, MARK_LINE, MARK_SQUARE };
 struct legend_entry {

@@ -1,26 +1,9 @@
-/* Pictures, as PNG by Cairo: particles coloured by a field, and line plots. */
+/* Line plots, as PNG by Cairo. Pictures of particles are in album.h. */
 #ifndef BOLIDE_PICTURE_H
 #define BOLIDE_PICTURE_H
 
 #include "model/columns.h"
 #include "model/simulation.h"
-
-/* Collective: the particles of all ranks coloured by FIELD ("pressure", "velocity.x") with axes in
- * a readable unit (mm, µm), colour scale with unit, title, time and outline-free discs of the
- * particle's diameter. In 3-D the particles in the slab about the middle plane (of the smallest
- * extent) are drawn; in 1-D it is a plot of FIELD over x. The picture has the same bits on any
- * number of ranks, however the particles are stored. Rank 0 writes it. FIELD may be "material" or
- * "body" too: one colour each, with a legend of their names. LOW and HIGH fix the colour scale (in
- * 1-D the y axis); NAN: the field's own range. A particle at a place that is not finite is left
- * out, one whose value is NaN is grey. ERROR_INPUT when FIELD is unknown or has several components,
- * ERROR_SYSTEM when PATH cannot be written; then PATH is as it was. */
-struct error *picture_particles(const char *path, const struct simulation *simulation,
-                                const struct population *population, const char *field, double low,
-                                double high);
-
-/* NULL when picture_particles can draw FIELD, else an ERROR_INPUT, not located. */
-struct error *picture_field_check(const struct simulation *simulation,
-                                  const struct population *population, const char *field);
 
 /* How the points of a series are drawn: as dots, as a line, as a line with a dot at each point, as
  * a thin grey line to measure the others by, or as error bars of three points each: low, middle
@@ -42,11 +25,16 @@ struct plot {
     const struct series *series; /* drawn in order: the first lies behind */
     bool log_x, log_y;
     const char *note;     /* a line under the title, the time for example; NULL: none */
-    double y_low, y_high; /* fix the y axis; equal: the series' own range */
-    bool own_folder;      /* it goes into a folder of the run: refused where that is a link */
+    double x_low, x_high; /* fix an axis; equal: the series' own range */
+    double y_low, y_high;
+    bool own_folder; /* it goes into a folder of the run: refused where that is a link */
 };
 
 struct error *picture_plot(const char *path, const struct plot *plot);
+
+/* The picture at PATH with FACTOR times fewer pixels on each side, as the bytes of a PNG in fresh
+ * memory; ERROR_SYSTEM where it cannot be read. */
+struct error *picture_shrink(const char *path, int factor, char **bytes, size_t *size);
 
 /* Dots for a plot. */
 struct scatter {

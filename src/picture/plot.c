@@ -245,6 +245,8 @@ static struct error *draw_plot(const struct canvas *canvas, const struct plot *p
     y.range = range_padded(range_drawable(y.range, plot->log_y), 0.05, plot->log_y);
     if (plot->y_high > plot->y_low && (!plot->log_y || plot->y_low > 0.0))
         y.range = (struct range){plot->y_low, plot->y_high};
+    if (plot->x_high > plot->x_low && !plot->log_x)
+        x.range = (struct range){plot->x_low, plot->x_high};
     axis_name(&x, plot->x_name, plot->x_unit, range_reach(x.range));
     axis_name(&y, plot->y_name, plot->y_unit, range_reach(y.range));
 

@@ -4,7 +4,6 @@
 #include <errno.h>
 #include <png.h>
 #include <setjmp.h>
-#include <stdio.h>
 
 static void put_rows(png_structp png, png_infop info, const struct png_image *image)
 {
@@ -22,7 +21,7 @@ static void put_rows(png_structp png, png_infop info, const struct png_image *im
     png_write_end(png, info);
 }
 
-static bool put_image(FILE *file, const struct png_image *image)
+bool png_put(FILE *file, const struct png_image *image)
 {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
     png_infop info = png ? png_create_info_struct(png) : NULL;
@@ -44,7 +43,7 @@ static bool put_image(FILE *file, const struct png_image *image)
 bool png_write(const char *path, const struct png_image *image)
 {
     FILE *file = fopen(path, "wb");
-    bool written = file && put_image(file, image);
+    bool written = file && png_put(file, image);
     if (file)
         written = !fclose(file) && written;
     return written;

@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 /* Rows of pixels 0xRRGGBB from the top, as CAIRO_FORMAT_RGB24 has them on machines of little
  * endian: the upper byte is unused, and rows are STRIDE bytes apart. */
@@ -13,7 +14,8 @@ struct png_image {
     const unsigned char *data;
 };
 
-/* Writes the file PATH; on failure errno says why. */
+/* Writes the file PATH, or to FILE; on failure errno says why. */
 bool png_write(const char *path, const struct png_image *image);
+bool png_put(FILE *file, const struct png_image *image);
 
 #endif

@@ -232,7 +232,7 @@ static struct colour colour_between(struct colour a, struct colour b, double par
 
 struct colour_scale colour_scale_make(struct range range)
 {
-    struct colour_scale scale = {range_drawable(range, false), false, false};
+    struct colour_scale scale = {range_drawable(range, false), false, false, false};
     double negative = -scale.range.low, positive = scale.range.high;
     scale.diverging = minimum(negative, positive) > 0.15 * maximum(negative, positive);
     return scale;
@@ -243,7 +243,13 @@ struct colour_scale colour_scale_logarithmic(struct range range)
     if (!(range.high > 0.0))
         return colour_scale_make(range);
     const struct range decades = {maximum(range.low, 1e-4 * range.high), range.high};
-    return (struct colour_scale){range_drawable(decades, true), false, true};
+    return (struct colour_scale){range_drawable(decades, true), false, true, false};
+}
+
+void colour_scale_choose(struct colour_scale *scale, bool diverging, bool grey)
+{
+    scale->diverging = diverging && !scale->logarithmic;
+    scale->grey = grey;
 }
 
 struct colour colour_of(const struct colour_scale *scale, double value)
@@ -263,6 +269,8 @@ struct colour colour_of(const struct colour_scale *scale, double value)
         high = log(high);
     }
     double place = minimum(maximum((value - low) / (high - low), 0.0), 1.0) * last;
+    if (scale->grey)
+        return (struct colour){place / last, place / last, place / last};
     int below = (int)minimum(place, last - 1);
     return colour_between(colour_unpack(anchors[below]), colour_unpack(anchors[below + 1]),
                           place - below);

@@ -80,12 +80,14 @@ struct colour {
  * LOGARITHMIC; where both signs matter, blue over grey (zero) to red. */
 struct colour_scale {
     struct range range;
-    bool diverging, logarithmic;
+    bool diverging, logarithmic, grey;
 };
 
 struct colour_scale colour_scale_make(struct range range);
 /* By logarithms over the last four decades of RANGE; as above where nothing is above zero. */
 struct colour_scale colour_scale_logarithmic(struct range range);
+/* Other colours than those that suit the range: diverging, or from black to white, or viridis. */
+void colour_scale_choose(struct colour_scale *scale, bool diverging, bool grey);
 
 /* The colour of VALUE; beyond the range the end's colour, dark grey for NaN. */
 struct colour colour_of(const struct colour_scale *scale, double value);

@@ -18,9 +18,9 @@
 #include "measure/connected.h"
 #include "measure/fragments.h"
 #include "model/generate.h"
-#include "picture/picture.h"
 #include "run/fit_axes.h"
 #include "run/forecast.h"
+#include "run/pictures.h"
 #include "run/run_internal.h"
 
 /* A thread with fewer particles costs more in waiting than it gains in work. The second number
@@ -208,27 +208,11 @@ static struct error *make_particles(struct run *run)
 /* The pictures that cannot be drawn. */
 static struct error *check_pictures(const struct run *run)
 {
-    const struct name_list *pictures = &run->input->output.pictures;
     const bool fragments = run->input->output.fragments;
     struct column columns[COLUMNS_MAX];
     const struct population shown =
         fragments ? fragments_show(&run->population, NULL, columns) : run->population;
-    struct error *error = NULL;
-    for (int i = 0; i < pictures->count; i++) {
-        const bool off = !fragments && !strcmp(pictures->names[i], fragments_column);
-        struct error *mistake =
-            off ? error_new(ERROR_INPUT, "\"%s\" needs `fragments: yes` beside it",
-                            fragments_column)
-                : picture_field_check(&run->simulation, &shown, pictures->names[i]);
-        if (!mistake)
-            continue;
-        char key[32];
-        snprintf(key, sizeof key, "pictures.%d", i + 1);
-        error = error_join(error,
-                           input_error(run->input, "output", key, "%s", error_message(mistake, 0)));
-        error_free(mistake);
-    }
-    return error;
+    return pictures_check(&run->simulation, &shown, fragments);
 }
 
 static struct error *check_fragments(const struct run *run)
@@ -265,6 +249,7 @@ static struct error *conclude(struct run *run)
 {
     struct run_result *result = run->result;
     TRY(run_checkpoint(run));
+    TRY(run_draw_pictures(run));
     TRY(ranks_agree(&run->ranks,
                     warnings_conclude(run->warnings, &run->simulation, &result->warnings)));
     if (result->finished) {
@@ -328,8 +313,10 @@ static struct error *run_through(struct run *run)
     if (is_local_error(run, error))
         return error;
     run_measure_speed(run);
-    if (error && error_kind(error) == ERROR_STATE)
+    if (error && error_kind(error) == ERROR_STATE) {
         error = run_save_failure(run, error);
+        error = error_join(error, run_draw_pictures(run));
+    }
     if (!error)
         error = conclude(run);
     if (!error) {

@@ -94,9 +94,11 @@ bool run_reserve_snapshots(struct run *run, int64_t count, int64_t kept);
 /* Asks for run->population anew, after a step or a change of its members. */
 void run_observe(struct run *run);
 
-/* Takes the outputs that are due at this moment: history, snapshot, pictures; those of the last
- * moment with LAST. Also looks at what is conserved. */
+/* Takes the outputs that are due at this moment: history, snapshot; those of the last moment with
+ * LAST. Also looks at what is conserved. */
 struct error *run_watch(struct run *run, bool last);
+/* Collective: draws the pictures of all snapshots. */
+struct error *run_draw_pictures(struct run *run);
 void run_progress(struct run *run);
 
 /* Collective, at a row of the history, where the totals are NOW: warnings, and the error of an

@@ -11,7 +11,8 @@
 #include "base/memory.h"
 #include "measure/fragments.h"
 #include "output/snapshot.h"
-#include "picture/picture.h"
+#include "picture/album.h"
+#include "run/pictures.h"
 #include "run/run_internal.h"
 
 char *run_path(const struct run *run, const char *name)
@@ -169,9 +170,11 @@ static void name_files(const struct run *run, struct names *names)
     const struct simulation_case *input = run->input;
     add_name(names, text_copy("snapshots/" RESULTS_NUMBER ".vtkhdf"));
     add_name(names, text_copy("snapshots/failed.vtkhdf"));
-    for (int i = 0; i < input->output.pictures.count; i++)
-        add_name(names, text_format("pictures/%s-" RESULTS_NUMBER ".png",
-                                    input->output.pictures.names[i]));
+    static const char *const populations[] = {"particles", "gas", "detonation"};
+    for (size_t i = 0; i < COUNT_OF(populations); i++)
+        add_name(names, text_format("snapshots/" RESULTS_NUMBER "-%s.vtkhdf", populations[i]));
+    for (int i = 0; album_name_of(input, i); i++)
+        add_name(names, text_format("pictures/%s-" RESULTS_NUMBER ".png", album_name_of(input, i)));
     for (int i = 0; i < input->checks.count; i++) {
         char *name = checks_picture(run->checks, i);
         if (name)
@@ -333,35 +336,11 @@ static double history_interval(const struct run *run)
     return isnan(given) ? 0.01 * run->input->run.until : given;
 }
 
-/* Draws the fields of POPULATION that the case wants, as FIELD-NNNNNN.png. */
-static struct error *draw_pictures(struct run *run, const struct population *population,
-                                   int64_t number)
+/* Writes POPULATION into snapshots/NUMBER and what SUFFIX adds to the name. */
+static struct error *write_file(struct run *run, const struct population *population,
+                                int64_t number, const char *suffix, uint64_t *hash)
 {
-    const struct name_list *fields = &run->input->output.pictures;
-    struct error *error = NULL;
-    for (int i = 0; i < fields->count && !error; i++) {
-        char *name = text_format("pictures/%s-%06lld.png", fields->names[i], (long long)number);
-        char *path = name ? run_path(run, name) : NULL;
-        error = ranks_agree(&run->ranks, path ? NULL : out_of_memory());
-        if (!error)
-            error =
-                picture_particles(path, &run->simulation, population, fields->names[i], NAN, NAN);
-        free(name);
-        free(path);
-    }
-    return error;
-}
-
-/* The pictures, profiles and file of snapshot NUMBER, with the fields of POPULATION. */
-static struct error *write_population(struct run *run, const struct population *population,
-                                      int64_t number)
-{
-    TRY(draw_pictures(run, population, number));
-    TRY(profiles_write(&run->profiles, &run->simulation, &run->population, run->options->output,
-                       number));
-    if (!run->input->output.snapshots)
-        return NULL;
-    char *name = text_format("snapshots/%06lld.vtkhdf", (long long)number);
+    char *name = text_format("snapshots/%06lld%s.vtkhdf", (long long)number, suffix);
     char *path = name ? run_path(run, name) : NULL;
     struct error *error =
         ranks_agree(&run->ranks, path ? file_check_folder(path) : out_of_memory());
@@ -369,11 +348,61 @@ static struct error *write_population(struct run *run, const struct population *
         error = snapshot_write(path, &run->simulation, population);
     free(name);
     if (!error && run_writes(run))
-        error = file_hash(path, &run->snapshot_hashes[number]);
+        error = file_hash(path, hash);
     free(path);
-    if (!error && run_writes(run))
+    return error;
+}
+
+/* The others of a coupled run, for its pictures. */
+static struct error *write_others(struct run *run, int64_t number)
+{
+    const struct population *shown[POPULATIONS_MAX];
+    const int count = simulation_shown(&run->simulation, &run->population, shown);
+    struct error *error = NULL;
+    for (int k = 1; k < count && !error; k++) {
+        char suffix[40];
+        uint64_t hash;
+        snprintf(suffix, sizeof suffix, "-%s", shown[k]->name);
+        error = ranks_agree(&run->ranks, write_file(run, shown[k], number, suffix, &hash));
+    }
+    return error;
+}
+
+/* The profiles and files of snapshot NUMBER, with the fields of POPULATION. */
+static struct error *write_population(struct run *run, const struct population *population,
+                                      int64_t number)
+{
+    TRY(profiles_write(&run->profiles, &run->simulation, &run->population, run->options->output,
+                       number));
+    const bool kept = run->input->output.snapshots;
+    if (!kept && !album_name_of(run->input, 0))
+        return NULL;
+    struct error *error = write_file(run, population, number, "", &run->snapshot_hashes[number]);
+    if (!error)
+        error = write_others(run, number);
+    if (!error && run_writes(run) && kept)
         error = write_series(run);
     ranks_broadcast(&run->ranks, 0, &run->snapshot_hashes[number], sizeof(uint64_t));
+    return ranks_agree(&run->ranks, error);
+}
+
+/* Where snapshots are not wanted they go once the pictures are there. */
+struct error *run_draw_pictures(struct run *run)
+{
+    const struct pictures_request request = {.folder = run->options->output,
+                                             .input = run->input,
+                                             .ranks = &run->ranks,
+                                             .threads = run->simulation.threads,
+                                             .lenient = true,
+                                             .at = NAN};
+    int64_t count;
+    if (!run->options->output)
+        return NULL;
+    const double clock = clock_seconds();
+    struct error *error = pictures_draw(&request, &count);
+    run->watching += clock_seconds() - clock;
+    if (!error && !run->input->output.snapshots && run_writes(run))
+        error = pictures_drop_snapshots(run->options->output);
     return ranks_agree(&run->ranks, error);
 }
 

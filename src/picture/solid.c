@@ -1,0 +1,497 @@
+/* Perspectives: spheres with a z-buffer, smoothed to surfaces, with light, ambient occlusion (how
+ * much of the surroundings is in front) and outlines. Where a corner is cut away, rays start at the
+ * cut: its faces are flat and closed. Values are blended between the particles of a body. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "picture/scene.h"
+#include "picture/vector.h"
+
+/* Radii over diameters: of the spheres, and of the discs of a cut face, which close the corners
+ * between them. */
+static const float SPHERE = 0.62f, DISC = 0.87f;
+static const float FAR = 1e30f;
+enum { SMOOTH_MAX = 40, SMOOTH_TAPS = 10 /* on each side */, OCCLUSION_SAMPLES = 24 };
+
+/* A sphere on the page: its middle and radius in pixels, its place before the eye in metres. */
+struct mark {
+    float x, y, radius, depth, metres;
+    struct vector place;
+};
+
+/* What a pixel shows. */
+struct sample {
+    float depth, smooth, value, weight;
+    int32_t item;    /* mark; -1: nothing */
+    signed char cut; /* the face of a cut; -1: a sphere */
+};
+
+struct drawing {
+    const struct scene *scene;
+    const struct view *view;
+    const struct projection *projection;
+    const struct colouring *colouring;
+    int width, height, threads;
+    float dot, size; /* smallest diameter, pixels; of the window, m */
+    struct vector eye, away, right, top, light;
+    struct mark *mark;
+    struct row_bands bands;
+    struct sample *sample;
+    float *surface, *scratch;
+    float around[OCCLUSION_SAMPLES][2]; /* directions on the page, of one at most */
+};
+
+static const struct scene_item *item_of(const struct drawing *d, int32_t mark)
+{
+    return &d->scene->item[mark % d->scene->count];
+}
+
+/* The ray of pixel (x, y): where it starts, and its direction, of which a step of one goes one
+ * metre away. */
+static struct vector ray_start(const struct drawing *d, float x, float y)
+{
+    if (!d->view->parallel)
+        return d->eye;
+    const float across = (x - (float)d->projection->x) / (float)d->projection->scale;
+    const float up = ((float)d->projection->y - y) / (float)d->projection->scale;
+    return plus(d->eye, plus(times(d->right, across), times(d->top, up)));
+}
+static struct vector ray_direction(const struct drawing *d, float x, float y)
+{
+    if (d->view->parallel)
+        return d->away;
+    const float across = (x - (float)d->projection->x) / (float)d->projection->scale;
+    const float up = ((float)d->projection->y - y) / (float)d->projection->scale;
+    return plus(d->away, plus(times(d->right, across), times(d->top, up)));
+}
+static struct vector place_of(const struct drawing *d, int x, int y, float depth)
+{
+    const float column = (float)x + 0.5f, row = (float)y + 0.5f;
+    return plus(ray_start(d, column, row), times(ray_direction(d, column, row), depth));
+}
+
+bool view_project(const struct view *view, const struct projection *projection,
+                  const double place[3], double *x, double *y)
+{
+    double depth = 0.0, across = 0.0, up = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        const double from_eye = place[axis] - view->eye[axis];
+        depth -= from_eye * view->direction[axis];
+        across += from_eye * view->right[axis];
+        up += from_eye * view->top[axis];
+    }
+    const double scale = view->parallel ? projection->scale : projection->scale / depth;
+    *x = projection->x + scale * across;
+    *y = projection->y - scale * up;
+    return depth > 0.0;
+}
+
+static struct error *place_marks(struct drawing *d)
+{
+    const int images = view_images(d->view);
+    const int64_t count = d->scene->count;
+    struct span *span = memory_allocate((size_t)(images * count) * sizeof *span + 1);
+    d->mark = memory_allocate((size_t)(images * count) * sizeof *d->mark + 1);
+    if (!span || !d->mark) {
+        free(span);
+        return out_of_memory_for("a picture");
+    }
+    for (int image = 0; image < images; image++) {
+        double sign[3];
+        view_image(d->view, image, sign);
+#pragma omp parallel for schedule(static) num_threads(d->threads)
+        for (int64_t i = 0; i < count; i++) {
+            const struct scene_item *item = &d->scene->item[i];
+            struct mark *mark = &d->mark[image * count + i];
+            double at[3], x, y;
+            for (int axis = 0; axis < 3; axis++)
+                at[axis] = sign[axis] > 0.0 ? item->place[axis]
+                                            : 2.0 * d->view->mirror_at[axis] - item->place[axis];
+            const bool before = view_project(d->view, d->projection, at, &x, &y);
+            mark->place = vector_of(at);
+            mark->depth = dot(minus(mark->place, d->eye), d->away);
+            mark->x = (float)x;
+            mark->y = (float)y;
+            mark->metres = SPHERE * item->diameter;
+            mark->radius = (float)d->projection->scale * mark->metres;
+            mark->radius /= d->view->parallel ? 1.0f : mark->depth;
+            const float reach = maximum(mark->radius * DISC / SPHERE, 0.5f * d->dot) + 1.0f;
+            const bool seen = before && mark->depth > 2.0f * mark->metres &&
+                              mark->x + reach > 0.0f && mark->x - reach < (float)d->width;
+            span[image * count + i] =
+                seen ? (struct span){mark->y - reach, mark->y + reach} : (struct span){1.0f, 0.0f};
+        }
+    }
+    struct error *error = row_bands_make(span, images * count, d->height, &d->bands);
+    free(span);
+    return error;
+}
+
+/* Where the ray of a pixel that is outside of a cut corner's material leaves the corner: how much
+ * deeper, and through which face; -1: nowhere; -2: the place is not in the corner. */
+static int leave_corner(const struct drawing *d, struct vector place, struct vector ray,
+                        float *deeper)
+{
+    int face = -1;
+    *deeper = INFINITY;
+    for (int k = 0; k < d->view->cuts; k++) {
+        const struct half_space *cut = &d->view->cut[k];
+        const float at = (&place.x)[cut->axis], rate = (float)cut->sign * (&ray.x)[cut->axis];
+        const float inside = (float)cut->sign * at - (float)cut->offset;
+        if (inside <= 0.0f)
+            return -2;
+        if (rate < 0.0f && -inside / rate < *deeper) {
+            *deeper = -inside / rate;
+            face = k;
+        }
+    }
+    return face;
+}
+
+/* Where pixel (x, y) meets MARK: its depth, the squared distance from the middle in radii, and the
+ * face of a cut that it lies on, or -1. */
+struct meeting {
+    float depth, distance;
+    signed char cut;
+};
+static bool meet(const struct drawing *d, const struct mark *mark, int x, int y,
+                 struct meeting *meeting)
+{
+    const float column = (float)x + 0.5f, row = (float)y + 0.5f;
+    const float radius = maximum(mark->radius, 0.5f * d->dot);
+    const float dx = (column - mark->x) / radius, dy = (row - mark->y) / radius;
+    const float distance = dx * dx + dy * dy, widest = DISC * DISC / (SPHERE * SPHERE);
+    if (distance >= (d->view->cuts ? widest : 1.0f))
+        return false;
+    *meeting = (struct meeting){mark->depth - mark->metres * sqrtf(maximum(1.0f - distance, 0.0f)),
+                                distance, -1};
+    if (!d->view->cuts)
+        return true;
+    const struct vector ray = ray_direction(d, column, row);
+    struct vector place = plus(ray_start(d, column, row), times(ray, meeting->depth));
+    float deeper;
+    const int face = leave_corner(d, place, ray, &deeper);
+    if (face == -2)
+        return distance < 1.0f;
+    if (face < 0)
+        return false;
+    place = plus(place, times(ray, deeper));
+    const struct vector off = minus(place, mark->place);
+    const float disc = mark->metres * DISC / SPHERE;
+    meeting->depth += deeper;
+    meeting->distance = dot(off, off) / (disc * disc);
+    meeting->cut = (signed char)face;
+    return meeting->distance < 1.0f;
+}
+
+struct box {
+    int left, right, top, bottom; /* last ones included */
+};
+static struct box box_of(const struct drawing *d, const struct mark *mark, int band)
+{
+    const int low = band * BAND_ROWS, high = low + BAND_ROWS - 1;
+    const int end = high < d->height ? high : d->height - 1;
+    const float widest = d->view->cuts ? DISC / SPHERE : 1.0f;
+    const float reach = maximum(mark->radius, 0.5f * d->dot) * widest;
+    return (struct box){(int)maximum(floorf(mark->x - reach), 0),
+                        (int)minimum(ceilf(mark->x + reach), d->width - 1),
+                        (int)maximum(floorf(mark->y - reach), low),
+                        (int)minimum(ceilf(mark->y + reach), end)};
+}
+
+/* Of two faces that are equally deep, as all of a cut are, the nearer particle is seen. */
+static bool is_nearer(const struct sample *sample, const struct meeting *meeting, float metres)
+{
+    const float tie = 1e-4f * metres;
+    if (meeting->cut >= 0 && sample->cut == meeting->cut &&
+        fabsf(meeting->depth - sample->depth) < tie)
+        return meeting->distance < sample->value;
+    return meeting->depth < sample->depth;
+}
+
+static void find_nearest(struct drawing *d, int band)
+{
+    for (int64_t k = d->bands.begin[band]; k < d->bands.begin[band + 1]; k++) {
+        const int32_t m = d->bands.item[k];
+        const struct mark *mark = &d->mark[m];
+        const struct box box = box_of(d, mark, band);
+        for (int y = box.top; y <= box.bottom; y++)
+            for (int x = box.left; x <= box.right; x++) {
+                struct sample *sample = &d->sample[(int64_t)y * d->width + x];
+                struct meeting meeting;
+                if (mark->depth - mark->metres > sample->depth && !d->view->cuts)
+                    continue;
+                if (meet(d, mark, x, y, &meeting) && is_nearer(sample, &meeting, mark->metres))
+                    *sample = (struct sample){.depth = meeting.depth,
+                                              .value = meeting.distance,
+                                              .item = m,
+                                              .cut = meeting.cut};
+            }
+    }
+}
+
+static void blend(struct drawing *d, int band)
+{
+    const int first = band * BAND_ROWS * d->width, end = (band + 1) * BAND_ROWS * d->width;
+    for (int p = first; p < end && p < d->width * d->height; p++)
+        d->sample[p].value = d->sample[p].weight = 0.0f;
+    for (int64_t k = d->bands.begin[band]; k < d->bands.begin[band + 1]; k++) {
+        const int32_t m = d->bands.item[k];
+        const struct mark *mark = &d->mark[m];
+        const struct scene_item *item = item_of(d, m);
+        const struct box box = box_of(d, mark, band);
+        if (isnan(item->value))
+            continue;
+        for (int y = box.top; y <= box.bottom; y++)
+            for (int x = box.left; x <= box.right; x++) {
+                struct sample *sample = &d->sample[(int64_t)y * d->width + x];
+                struct meeting meeting;
+                if (sample->item < 0 || item_of(d, sample->item)->body != item->body ||
+                    mark->depth - 2.0f * mark->metres > sample->depth ||
+                    !meet(d, mark, x, y, &meeting) ||
+                    meeting.depth >
+                        sample->depth + (meeting.cut >= 0 ? 1e-3f : 0.6f) * mark->metres)
+                    continue;
+                const float near = maximum(1.0f - meeting.distance, 0.0f);
+                const float weight = near * near + 1e-4f;
+                sample->value += weight * item->value;
+                sample->weight += weight;
+            }
+    }
+    for (int p = first; p < end && p < d->width * d->height; p++)
+        if (d->sample[p].item >= 0)
+            d->sample[p].value = d->sample[p].weight > 0.0f
+                                     ? d->sample[p].value / d->sample[p].weight
+                                     : item_of(d, d->sample[p].item)->value;
+}
+
+static bool is_sphere(const struct sample *sample) { return sample->item >= 0 && sample->cut < 0; }
+
+static bool is_smoothed(const struct drawing *d, const struct sample *sample)
+{
+    return is_sphere(sample) && d->mark[sample->item].radius >= 2.0f;
+}
+
+/* The depth of row or column neighbours, averaged where they belong to the same surface: SURFACE
+ * has the depths of spheres, and FAR elsewhere. */
+static float smoothed(const struct drawing *d, const float *surface, int x, int y, bool rows)
+{
+    const int64_t p = (int64_t)y * d->width + x, stride = rows ? d->width : 1;
+    const struct mark *mark = &d->mark[d->sample[p].item];
+    const int reach = (int)minimum(SMOOTH_MAX, 2.0f * mark->radius), step = 1 + reach / SMOOTH_TAPS;
+    const int at = rows ? y : x, most = (rows ? d->height : d->width) - 1;
+    const int before = at < reach ? at : reach, behind = most - at < reach ? most - at : reach;
+    const float thin = 1.0f / (2.4f * mark->metres), short_of = 1.0f / (float)(reach + 1);
+    float sum = 0.0f, weights = 0.0f;
+    for (int j = -(before / step) * step; j <= behind; j += step) {
+        /* parabolas that end at the reach, and where another surface begins */
+        const float depth = surface[p + j * stride], off = (depth - surface[p]) * thin;
+        const float part = (float)j * short_of, same = 1.0f - off * off;
+        const float weight = (1.0f - part * part) * (same > 0.0f ? same : 0.0f);
+        sum += weight * weight * depth;
+        weights += weight * weight;
+    }
+    return weights > 0.0f ? sum / weights : surface[p];
+}
+
+static void smooth(struct drawing *d)
+{
+    const int64_t pixels = (int64_t)d->width * d->height;
+    float *const plane[2] = {d->surface, d->scratch};
+    for (int64_t p = 0; p < pixels; p++) {
+        d->sample[p].smooth = d->sample[p].depth;
+        plane[0][p] = is_sphere(&d->sample[p]) ? d->sample[p].depth : FAR;
+    }
+    for (int round = 0; round < 4; round++) { /* the last one fills plane 0 */
+        const float *surface = plane[round % 2];
+        float *next = plane[1 - round % 2];
+#pragma omp parallel for schedule(dynamic, 16) num_threads(d->threads)
+        for (int y = 0; y < d->height; y++)
+            for (int x = 0; x < d->width; x++) {
+                const int64_t p = (int64_t)y * d->width + x;
+                next[p] = is_smoothed(d, &d->sample[p]) ? smoothed(d, surface, x, y, round % 2)
+                                                        : surface[p];
+            }
+    }
+    for (int64_t p = 0; p < pixels; p++)
+        if (is_sphere(&d->sample[p]))
+            d->sample[p].smooth = plane[0][p];
+}
+
+/* The slope of the surface from (x, y) to a neighbour on the page, the one that is less far. */
+static struct vector slope_at(const struct drawing *d, int x, int y, bool down)
+{
+    const int64_t p = (int64_t)y * d->width + x;
+    const struct sample *sample = &d->sample[p];
+    const int at = down ? y : x, most = (down ? d->height : d->width) - 1;
+    const int64_t stride = down ? d->width : 1;
+    float jump[2] = {INFINITY, INFINITY};
+    for (int side = 0; side < 2; side++) {
+        const struct sample *other = &d->sample[p + (side ? stride : -stride)];
+        if ((side ? at < most : at > 0) && is_sphere(other))
+            jump[side] = fabsf(other->smooth - sample->smooth);
+    }
+    const int side = jump[1] <= jump[0], step = side ? 1 : -1;
+    if (jump[side] > 2.0f * d->mark[sample->item].metres)
+        return down ? times(d->top, -1.0f) : d->right;
+    const float depth = d->sample[p + (side ? stride : -stride)].smooth;
+    const struct vector other = place_of(d, down ? x : x + step, down ? y + step : y, depth);
+    return times(minus(other, place_of(d, x, y, sample->smooth)), (float)step);
+}
+
+static struct vector normal_at(const struct drawing *d, int x, int y)
+{
+    const struct sample *sample = &d->sample[(int64_t)y * d->width + x];
+    if (sample->cut >= 0) {
+        const struct half_space *cut = &d->view->cut[(int)sample->cut];
+        struct vector normal = {0.0f, 0.0f, 0.0f};
+        (&normal.x)[cut->axis] = (float)cut->sign;
+        return normal;
+    }
+    if (d->mark[sample->item].radius < 2.0f)
+        return times(d->away, -1.0f);
+    const struct vector normal = unit(cross(slope_at(d, x, y, false), slope_at(d, x, y, true)));
+    return dot(normal, d->away) > 0.0f ? times(normal, -1.0f) : normal;
+}
+
+/* How much of the surroundings of (x, y) is in front: 0 to 1. */
+static float occlusion_at(const struct drawing *d, int x, int y, struct vector normal)
+{
+    const struct sample *sample = &d->sample[(int64_t)y * d->width + x];
+    const struct vector place = place_of(d, x, y, sample->smooth);
+    const float reach = 0.035f * d->size;
+    const float pixels =
+        (float)d->projection->scale * reach / (d->view->parallel ? 1.0f : sample->smooth);
+    float sum = 0.0f;
+    for (int j = 0; j < OCCLUSION_SAMPLES; j++) {
+        const int column = x + (int)(d->around[j][0] * pixels);
+        const int row = y + (int)(d->around[j][1] * pixels);
+        if (column < 0 || row < 0 || column >= d->width || row >= d->height)
+            continue;
+        const struct sample *other = &d->sample[(int64_t)row * d->width + column];
+        if (other->item < 0)
+            continue;
+        const struct vector off = minus(place_of(d, column, row, other->smooth), place);
+        const float length = sqrtf(dot(off, off)) + 1e-12f * d->size;
+        const float above = maximum(dot(off, normal) / length - 0.12f, 0.0f);
+        const float far = 2.0f * reach / length;
+        sum += above * (far >= 1.0f ? 1.0f : far * far);
+    }
+    return sum / OCCLUSION_SAMPLES;
+}
+
+/* Darkness of an outline at (x, y): where the depth jumps, and less where the body changes. */
+static float outline_at(const struct drawing *d, int x, int y)
+{
+    static const int step[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    const struct sample *sample = &d->sample[(int64_t)y * d->width + x];
+    const struct mark *mark = &d->mark[sample->item];
+    float dark = 0.0f;
+    if (!d->view->outlines || mark->radius < 1.5f * d->dot)
+        return 0.0f;
+    for (int k = 0; k < 4; k++) {
+        const int column = x + step[k][0], row = y + step[k][1];
+        if (column < 0 || row < 0 || column >= d->width || row >= d->height)
+            continue;
+        const struct sample *other = &d->sample[(int64_t)row * d->width + column];
+        if (other->item < 0 || other->smooth - sample->smooth > 5.0f * mark->metres)
+            return 1.0f;
+        if (item_of(d, other->item)->body != item_of(d, sample->item)->body)
+            dark = 0.7f;
+    }
+    return dark;
+}
+
+static uint32_t pack(struct colour colour, double shade)
+{
+    return 0xff000000u | (uint32_t)(colour.red * shade * 255.0 + 0.5) << 16 |
+           (uint32_t)(colour.green * shade * 255.0 + 0.5) << 8 |
+           (uint32_t)(colour.blue * shade * 255.0 + 0.5);
+}
+
+static void paint(const struct drawing *d, int y, struct raster *raster)
+{
+    for (int x = 0; x < d->width; x++) {
+        const int64_t p = (int64_t)y * d->width + x;
+        const struct sample *sample = &d->sample[p];
+        if (sample->item < 0)
+            continue;
+        const struct vector normal = normal_at(d, x, y);
+        const float lit = 0.42f + 0.58f * maximum(dot(normal, d->light), 0.0f);
+        const float dark = minimum(1.6f * occlusion_at(d, x, y, normal), 0.75f);
+        const float line = 1.0f - 0.6f * outline_at(d, x, y);
+        raster->pixel[p] =
+            pack(colouring_of(d->colouring, sample->value), (double)(lit * (1.0f - dark) * line));
+    }
+}
+
+static struct error *allocate(struct drawing *d)
+{
+    for (int j = 0; j < OCCLUSION_SAMPLES; j++) { /* points spiral outwards */
+        const float angle = (float)j * 2.39996f;
+        const float radius = sqrtf(((float)j + 0.5f) / OCCLUSION_SAMPLES);
+        d->around[j][0] = cosf(angle) * radius;
+        d->around[j][1] = sinf(angle) * radius;
+    }
+    const size_t pixels = (size_t)d->width * (size_t)d->height;
+    d->sample = memory_allocate(pixels * sizeof *d->sample);
+    d->scratch = memory_allocate(pixels * sizeof *d->scratch);
+    d->surface = memory_allocate(pixels * sizeof *d->surface);
+    if (!d->sample || !d->surface || !d->scratch)
+        return out_of_memory_for("a picture");
+    for (size_t p = 0; p < pixels; p++)
+        d->sample[p] = (struct sample){.depth = INFINITY, .item = -1, .cut = -1};
+    return place_marks(d);
+}
+
+static void take_values(struct drawing *d)
+{
+    for (int64_t p = 0; p < (int64_t)d->width * d->height; p++)
+        if (d->sample[p].item >= 0)
+            d->sample[p].value = item_of(d, d->sample[p].item)->value;
+}
+
+struct error *solid_draw(const struct scene *scene, const struct view *view,
+                         const struct projection *projection, const struct colouring *colouring,
+                         int threads, struct raster *raster)
+{
+    struct drawing d = {.scene = scene,
+                        .view = view,
+                        .projection = projection,
+                        .colouring = colouring,
+                        .width = raster->width,
+                        .height = raster->height,
+                        .threads = threads,
+                        .dot = (float)(view->dot * PIXELS_PER_POINT),
+                        .eye = vector_of(view->eye),
+                        .away = times(vector_of(view->direction), -1.0f),
+                        .right = vector_of(view->right),
+                        .top = vector_of(view->top)};
+    for (int axis = 0; axis < 3; axis++)
+        d.size += (float)square(view->window[axis].high - view->window[axis].low);
+    d.size = sqrtf(d.size);
+    d.light = unit(plus(times(d.away, -1.0f), plus(times(d.top, 0.8f), times(d.right, -0.6f))));
+    struct error *error = allocate(&d);
+    if (!error) {
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+        for (int band = 0; band < d.bands.count; band++)
+            find_nearest(&d, band);
+        if (colouring->scale) {
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+            for (int band = 0; band < d.bands.count; band++)
+                blend(&d, band);
+        } else
+            take_values(&d);
+        smooth(&d);
+#pragma omp parallel for schedule(dynamic, 8) num_threads(threads)
+        for (int y = 0; y < d.height; y++)
+            paint(&d, y, raster);
+    }
+    free(d.mark);
+    free(d.sample);
+    free(d.surface);
+    free(d.scratch);
+    row_bands_free(&d.bands);
+    return error;
+}

@@ -1,0 +1,69 @@
+#!/bin/bash
+# bolide compare: several runs and a measurement in one page, their differences, and plots that a browser draws.
+set -u
+status=0
+fail() {
+    echo "FAILED: $*"
+    status=1
+}
+cat >plate.yaml <<'END'
+format: 1
+dimension: 1
+let: {speed: 400 m/s}
+resolution: 50 um
+solver: sph
+materials: {aluminium: {library: aluminium}}
+bodies:
+  flyer:  {material: aluminium, box: {from: [-2 mm], to: [0 mm]}, velocity: [speed]}
+  target: {material: aluminium, box: {from: [0 mm], to: [5 mm]}}
+run: {until: 1 us}
+output: {pictures: []}
+probes: {gauge: {tracer: [2 mm], fields: [pressure, velocity]}}
+END
+rm -rf a b compare
+"$BOLIDE" run plate.yaml --output a >a.log 2>&1 || fail "$(tail -n 3 a.log)"
+"$BOLIDE" run plate.yaml --set let.speed=500m/s --output b >b.log 2>&1 || fail "$(tail -n 3 b.log)"
+# What run a has, 20 ns later, in other units.
+python3 - <<'PYTHON'
+import csv
+rows = list(csv.reader(open("a/probes/gauge.csv")))
+column = [head.startswith("pressure") for head in rows[0]].index(True)
+with open("test.csv", "w") as out:
+    out.write("t_us,p\n")
+    for row in rows[1::20]:
+        out.write(f"{float(row[0]) * 1e6 + .02},{float(row[column]) * 1e-9}\n")
+PYTHON
+"$BOLIDE" compare a b --data test.csv,time=t_us:us,value=p:GPa,probe=gauge,field=pressure >compare.log 2>&1 ||
+    fail "compare: $(cat compare.log)"
+python3 - <<'PYTHON' || fail "compare.csv: $(cat compare/compare.csv)"
+import csv
+a, b = csv.DictReader(open("compare/compare.csv"))
+assert abs(float(a["shift [s]"]) + 20e-9) < 2e-9, a
+assert abs(float(a["largest"])) < 0.05e9 < float(b["largest"]), (a, b)
+assert float(a["rms"]) < float(b["rms"])
+PYTHON
+"$BOLIDE" compare a --data test.csv,tme=t_us:us >wrong.log 2>&1
+[ $? = 2 ] || fail "a wrong key: $(cat wrong.log)"
+"$BOLIDE" compare a --data none.csv >wrong.log 2>&1
+[ $? = 2 ] || fail "a missing file: $(cat wrong.log)"
+if [ ! -x /usr/bin/chromium ]; then
+    echo "no browser is installed: the page was not opened"
+    exit $status
+fi
+home=$(mktemp -d)
+trap 'rm -rf "$home"' EXIT
+cat >probe.txt <<'HTML'
+<script>
+const group = bolidePlots[0], plot = group.plots[0], span = group.view()[1] - group.view()[0];
+const lines = group.plots.map(p => p.data.series.length);
+group.plots[0].graph.updateOptions({dateWindow: [group.view()[0], group.view()[0] + span / 2]});
+const button = document.querySelector('p.controls button');
+if (button) { button.click(); button.click(); }
+document.title = 'lines ' + lines + '; requests ' + performance.getEntriesByType('resource').length;
+</script>
+HTML
+cat compare/compare.html probe.txt >probed.html
+timeout 600 /usr/bin/chromium --headless --no-sandbox --disable-gpu --user-data-dir="$home" --dump-dom \
+    "file://$PWD/probed.html" >seen.html 2>browser.log
+grep -q '<title>lines 2,3,2; requests 0' seen.html || fail "the page: $(grep -o '<title>[^<]*' seen.html)"
+exit $status

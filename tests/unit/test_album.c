@@ -1,0 +1,399 @@
+/* Pictures of particles: windows and colours that strays do not set, equal frames on any number of
+ * threads and in any order of storage, cracks that stay visible, any input. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <cairo.h>
+#include <float.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "picture/album_internal.h"
+
+static const char path[] = "album.png";
+static char *body_names[] = {"flyer", "target"};
+
+/* A case with the pictures of NAMES, COUNT of them. */
+static struct simulation_case case_of(int dimension, char **names, int count,
+                                      struct picture_input *pictures)
+{
+    struct simulation_case input = {.title = "Plate \xff impact", .dimension = dimension};
+    for (int i = 0; i < count; i++)
+        pictures[i] = (struct picture_input){.view = -1,
+                                             .up = -1,
+                                             .palette = -1,
+                                             .direction = {2, {30.0, 25.0, 0.0}},
+                                             .mirror = true,
+                                             .outlines = true,
+                                             .plane = {{NAN, NAN, NAN}},
+                                             .slab = NAN,
+                                             .dot = 1.6,
+                                             .range = {.low = {.value = NAN},
+                                                       .high = {.value = NAN},
+                                                       .percentiles = {2, {0.5, 99.5, 0.0}}}};
+    input.output.pictures = (struct named_map){.count = count, .names = names, .items = pictures};
+    return input;
+}
+
+/* A lattice of NX x NY x NZ particles a millimetre apart, of two bodies, with a pressure that grows
+ * along x. */
+static struct frame lattice(int nx, int ny, int nz)
+{
+    struct frame frame = {.groups = 1};
+    struct frame_group *group = &frame.group[0];
+    const size_t count = (size_t)(nx * ny * nz);
+    frame.time = 3.1e-6;
+    frame.bodies = (struct frame_names){2, calloc(2, sizeof(char *))};
+    for (int i = 0; i < 2; i++)
+        frame.bodies.name[i] = text_copy(body_names[i]);
+    group->count = (int64_t)count;
+    group->id = memory_allocate(count * sizeof *group->id);
+    group->body = memory_allocate(count * sizeof *group->body);
+    group->material = memory_allocate(count * sizeof *group->material);
+    group->position = memory_allocate(count * sizeof *group->position);
+    group->diameter = memory_allocate(count * sizeof *group->diameter);
+    group->mass = memory_allocate(count * sizeof *group->mass);
+    group->fields = 1;
+    group->field[0] = (struct frame_field){.name = "pressure", .unit = "Pa"};
+    group->field[0].value = memory_allocate(count * sizeof(float));
+    for (int i = 0; i < (int)count; i++) {
+        const int site[3] = {i % nx, i / nx % ny, i / nx / ny};
+        group->id[i] = (uint64_t)i;
+        group->body[i] = (uint16_t)(2 * site[0] / nx);
+        for (int axis = 0; axis < 3; axis++)
+            group->position[i][axis] = 1e-3f * ((float)site[axis] + 0.5f);
+        if (nz == 1)
+            group->position[i][2] = 0.0f;
+        group->diameter[i] = 1e-3f;
+        group->mass[i] = 1.0f;
+        group->field[0].value[i] = 1e9f * (float)(site[0] + 1);
+    }
+    return frame;
+}
+
+static struct album *album_of(const struct simulation_case *input, int threads,
+                              const struct frame *first, const struct frame *last)
+{
+    const struct ranks alone = ranks_alone();
+    struct album *album;
+    assert_null(album_create(input, threads, &album));
+    assert_null(album_begin(album, first, last));
+    assert_null(album_add(album, first));
+    assert_null(album_add(album, last));
+    album_share(album, &alone);
+    return album;
+}
+
+/* The bytes of picture INDEX of FRAME. */
+static char *draw(const struct album *album, int index, const struct frame *frame, size_t *size)
+{
+    char *bytes;
+    struct error *error = album_draw(album, index, frame, path);
+    if (error)
+        fail_msg("%s", error_message(error, 0));
+    assert_null(file_read(path, &bytes, size));
+    remove(path);
+    return bytes;
+}
+
+static void expect_same(const char *a, size_t m, const char *b, size_t n)
+{
+    assert_int_equal(m, n);
+    assert_memory_equal(a, b, m);
+}
+
+static void strays_set_neither_window_nor_colours(void **state)
+{
+    (void)state;
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        char *names[] = {"pressure"};
+        struct picture_input pictures[1];
+        struct simulation_case input = case_of(dimension, names, 1, pictures);
+        struct frame first = lattice(40, 30, dimension == 3 ? 20 : 1);
+        struct frame last = lattice(40, 30, dimension == 3 ? 20 : 1);
+        struct album *plain = album_of(&input, 1, &first, &last);
+        last.group[0].position[0][0] = 0.4f;
+        last.group[0].position[0][1] = -0.4f;
+        last.group[0].field[0].value[0] = 1e13f;
+        struct album *with = album_of(&input, 1, &first, &last);
+        for (int axis = 0; axis < 3; axis++) {
+            const struct range *a = &plain->picture[0].view.window[axis];
+            const struct range *b = &with->picture[0].view.window[axis];
+            assert_true(fabs(a->low - b->low) <= 1e-3 && fabs(a->high - b->high) <= 1e-3);
+        }
+        const struct range *a = &plain->picture[0].panel[0].scale.range;
+        const struct range *b = &with->picture[0].panel[0].scale.range;
+        assert_true(a->low == b->low && a->high == b->high);
+        struct scene scene;
+        int64_t outside;
+        assert_null(scene_take(with, &with->picture[0], &with->picture[0].panel[0], &last, &scene,
+                               &outside));
+        assert_int_equal(outside, 1);
+        free(scene.item);
+        album_free(plain);
+        album_free(with);
+        frame_free(&first);
+        frame_free(&last);
+    }
+}
+
+static void pictures_are_the_same_on_any_number_of_threads(void **state)
+{
+    (void)state;
+    char *names[] = {"pressure", "body"};
+    for (int dimension = 1; dimension <= 3; dimension++) {
+        struct picture_input pictures[2];
+        struct simulation_case input = case_of(dimension, names, 2, pictures);
+        struct frame frame = lattice(30, dimension > 1 ? 20 : 1, dimension > 2 ? 10 : 1);
+        if (dimension == 3) /* of which one takes a second */
+            input.output.pictures.count = 1;
+        for (int picture = 0; picture < input.output.pictures.count; picture++) {
+            char *first = NULL;
+            size_t size = 0;
+            for (int threads = 1; threads <= 4; threads += 3) {
+                struct album *album = album_of(&input, threads, &frame, &frame);
+                size_t other;
+                char *bytes = draw(album, picture, &frame, &other);
+                if (first)
+                    expect_same(first, size, bytes, other);
+                else
+                    size = other;
+                if (first)
+                    free(bytes);
+                else
+                    first = bytes;
+                album_free(album);
+            }
+            free(first);
+        }
+        frame_free(&frame);
+    }
+}
+
+/* Stores the members the other way round. */
+static void reverse(struct frame_group *group)
+{
+    for (int64_t i = 0, k = group->count - 1; i < k; i++, k--) {
+        const uint64_t id = group->id[i];
+        const uint16_t body = group->body[i];
+        const float value = group->field[0].value[i];
+        float place[3];
+        memcpy(place, group->position[i], sizeof place);
+        group->id[i] = group->id[k];
+        group->body[i] = group->body[k];
+        group->field[0].value[i] = group->field[0].value[k];
+        memcpy(group->position[i], group->position[k], sizeof place);
+        group->id[k] = id;
+        group->body[k] = body;
+        group->field[0].value[k] = value;
+        memcpy(group->position[k], place, sizeof place);
+    }
+}
+
+static void pictures_are_the_same_in_any_order_of_storage(void **state)
+{
+    (void)state;
+    char *names[] = {"pressure"};
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        struct picture_input pictures[1];
+        struct simulation_case input = case_of(dimension, names, 1, pictures);
+        struct frame a = lattice(20, 10, dimension > 2 ? 5 : 1);
+        struct frame b = lattice(20, 10, dimension > 2 ? 5 : 1);
+        for (int64_t i = 0; i < a.group[0].count; i++) /* they lie on each other */
+            a.group[0].diameter[i] = b.group[0].diameter[i] = 2e-3f;
+        reverse(&b.group[0]);
+        assert_null(frame_order(&a.group[0]));
+        assert_null(frame_order(&b.group[0]));
+        struct album *album = album_of(&input, 2, &a, &a);
+        size_t m, n;
+        char *first = draw(album, 0, &a, &m), *second = draw(album, 0, &b, &n);
+        expect_same(first, m, second, n);
+        free(first);
+        free(second);
+        album_free(album);
+        frame_free(&a);
+        frame_free(&b);
+    }
+}
+
+static cairo_surface_t *draw_surface(const struct album *album, int index,
+                                     const struct frame *frame)
+{
+    assert_null(album_draw(album, index, frame, path));
+    cairo_surface_t *surface = cairo_image_surface_create_from_png(path);
+    assert_int_equal(cairo_surface_status(surface), CAIRO_STATUS_SUCCESS);
+    remove(path);
+    return surface;
+}
+
+static uint32_t pixel(cairo_surface_t *surface, int column, int row)
+{
+    const unsigned char *data = cairo_image_surface_get_data(surface);
+    uint32_t value;
+    memcpy(&value, data + row * cairo_image_surface_get_stride(surface) + 4 * column, sizeof value);
+    return value & 0xffffff;
+}
+
+static int count_pixels(cairo_surface_t *surface, struct colour colour)
+{
+    const uint32_t wanted = (uint32_t)(colour.red * 255.0 + 0.5) << 16 |
+                            (uint32_t)(colour.green * 255.0 + 0.5) << 8 |
+                            (uint32_t)(colour.blue * 255.0 + 0.5);
+    int found = 0;
+    for (int row = 0; row < cairo_image_surface_get_height(surface); row++)
+        for (int column = 0; column < cairo_image_surface_get_width(surface); column++)
+            found += pixel(surface, column, row) == wanted;
+    return found;
+}
+
+static void frames_have_one_size_and_a_uniform_field_one_colour(void **state)
+{
+    (void)state;
+    char *names[] = {"pressure"};
+    struct picture_input pictures[1];
+    struct simulation_case input = case_of(2, names, 1, pictures);
+    struct frame first = lattice(40, 20, 1), last = lattice(40, 20, 1);
+    for (int64_t i = 0; i < last.group[0].count; i++) {
+        first.group[0].field[0].value[i] = last.group[0].field[0].value[i] = 1e9f;
+        last.group[0].position[i][0] *= 3.0f;
+    }
+    struct album *album = album_of(&input, 1, &first, &last);
+    assert_true(album->picture[0].panel[0].uniform);
+    cairo_surface_t *a = draw_surface(album, 0, &first), *b = draw_surface(album, 0, &last);
+    assert_int_equal(cairo_image_surface_get_width(a), cairo_image_surface_get_width(b));
+    assert_int_equal(cairo_image_surface_get_height(a), cairo_image_surface_get_height(b));
+    const struct colour colour = colour_of(&album->picture[0].panel[0].scale, 1e9);
+    assert_true(count_pixels(a, colour) > 10000);
+    cairo_surface_destroy(a);
+    cairo_surface_destroy(b);
+    album_free(album);
+    frame_free(&first);
+    frame_free(&last);
+}
+
+/* White pixels in the middle row between the outermost ones of the material. */
+static int white_in_the_middle(cairo_surface_t *surface, int top, int bottom)
+{
+    const int row = (top + bottom) / 2, width = cairo_image_surface_get_width(surface);
+    int first = width / 4, last = 3 * width / 4, white = 0;
+    for (int column = first; column <= last; column++)
+        white += pixel(surface, column, row) == 0xffffff;
+    return white;
+}
+
+static void cracks_stay_visible_and_stretched_material_has_none(void **state)
+{
+    (void)state;
+    char *names[] = {"body"};
+    struct picture_input pictures[1];
+    struct simulation_case input = case_of(2, names, 1, pictures);
+    for (int crack = 0; crack < 2; crack++) {
+        struct frame frame = lattice(40, 20, 1);
+        for (int64_t i = 0; i < frame.group[0].count; i++) {
+            float *x = &frame.group[0].position[i][0];
+            *x = crack ? *x + (*x > 0.018f ? 1e-3f : 0.0f) : 1.4f * *x;
+            frame.group[0].body[i] = 0;
+            frame.group[0].diameter[i] = crack ? 1e-3f : 1e-3f * sqrtf(1.4f);
+        }
+        struct album *album = album_of(&input, 1, &frame, &frame);
+        cairo_surface_t *surface = draw_surface(album, 0, &frame);
+        const int height = cairo_image_surface_get_height(surface);
+        const int white = white_in_the_middle(surface, 140, height - 100);
+        if (crack)
+            assert_in_range(white, 5, 60);
+        else
+            assert_int_equal(white, 0);
+        cairo_surface_destroy(surface);
+        album_free(album);
+        frame_free(&frame);
+    }
+}
+
+static void bodies_have_a_colour_each(void **state)
+{
+    (void)state;
+    char *names[] = {"body"};
+    struct picture_input pictures[1];
+    struct simulation_case input = case_of(2, names, 1, pictures);
+    struct frame frame = lattice(40, 20, 1);
+    struct album *album = album_of(&input, 1, &frame, &frame);
+    cairo_surface_t *surface = draw_surface(album, 0, &frame);
+    assert_true(count_pixels(surface, colour_of_category(0)) > 10000);
+    assert_true(count_pixels(surface, colour_of_category(1)) > 10000);
+    cairo_surface_destroy(surface);
+    album_free(album);
+    frame_free(&frame);
+}
+
+static void any_input_is_drawn_on_a_page_of_sane_size(void **state)
+{
+    (void)state;
+    static const int sizes[][3] = {{1000, 1, 1}, {1, 1000, 1}, {1, 1, 1}, {3, 3, 3}};
+    char *names[] = {"pressure"};
+    for (size_t k = 0; k < COUNT_OF(sizes); k++)
+        for (int odd = 0; odd < 3; odd++) {
+            struct picture_input pictures[1];
+            struct simulation_case input = case_of(sizes[k][2] > 1 ? 3 : 2, names, 1, pictures);
+            struct frame frame = lattice(sizes[k][0], sizes[k][1], sizes[k][2]);
+            struct frame_group *group = &frame.group[0];
+            const int64_t last = group->count - 1;
+            if (odd == 1) {
+                group->field[0].value[0] = NAN;
+                group->field[0].value[last] = INFINITY;
+                group->field[0].value[last / 2] = -FLT_MAX;
+                group->diameter[last / 3] = 0.0f;
+                group->position[last / 4][0] = 1e30f;
+            }
+            if (odd == 2)
+                group->count = 0;
+            assert_null(frame_order(group));
+            struct album *album = album_of(&input, 1, &frame, &frame);
+            cairo_surface_t *surface = draw_surface(album, 0, &frame);
+            assert_in_range(cairo_image_surface_get_width(surface), 800, 2400);
+            assert_in_range(cairo_image_surface_get_height(surface), 200, 2200);
+            cairo_surface_destroy(surface);
+            album_free(album);
+            frame_free(&frame);
+        }
+}
+
+static void in_one_dimension_all_members_are_dots(void **state)
+{
+    (void)state;
+    char *names[] = {"pressure"};
+    struct picture_input pictures[1];
+    struct simulation_case input = case_of(1, names, 1, pictures);
+    struct frame frame = lattice(30, 1, 1);
+    struct album *album = album_of(&input, 1, &frame, &frame);
+    struct scene scene;
+    int64_t outside;
+    assert_null(scene_take(album, &album->picture[0], &album->picture[0].panel[0], &frame, &scene,
+                           &outside));
+    assert_int_equal(scene.count, 30);
+    free(scene.item);
+    album_free(album);
+    frame_free(&frame);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(strays_set_neither_window_nor_colours),
+        cmocka_unit_test(pictures_are_the_same_on_any_number_of_threads),
+        cmocka_unit_test(pictures_are_the_same_in_any_order_of_storage),
+        cmocka_unit_test(frames_have_one_size_and_a_uniform_field_one_colour),
+        cmocka_unit_test(cracks_stay_visible_and_stretched_material_has_none),
+        cmocka_unit_test(bodies_have_a_colour_each),
+        cmocka_unit_test(in_one_dimension_all_members_are_dots),
+        cmocka_unit_test(any_input_is_drawn_on_a_page_of_sane_size),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
