@@ -21,6 +21,7 @@ static const char log_name[] = "run.log", list_name[] = ".bolide-files",
 static const char *const result_files[] = {
     "case.yaml",   "history.csv", "checkpoint.h5",           "checks.csv",
     "summary.csv", "report.html", "snapshots.vtkhdf.series", "fragments.csv",
+    "view.html",
 };
 static const char *const result_folders[] = {"snapshots", "pictures", "probes", "profiles"};
 

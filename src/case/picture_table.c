@@ -74,7 +74,7 @@ const struct parameter case_picture_table[] = {
               "sides that a perspective removes, what is on all of them: [+x, -y]; none: nothing. "
               "Default: what faces the viewer between planes of symmetry"),
     PARAMETER(TABLE, struct picture_input, window, OPTIONAL,
-              "what of space is drawn; default: the bodies at the start and 99.8 % of the mass of "
+              "what of space is drawn; default: the bodies at the start and 99 % of the mass of "
               "each at the end",
               .table = window_table),
     PARAMETER(TABLE, struct picture_input, range, OPTIONAL, "the values that the colours span",

@@ -8,14 +8,11 @@
 #include "cli/cli.h"
 #include "page/view.h"
 
-enum { FRAMES = 40, FRAMES_MOST = 10000 };
-static const double LIMIT = 20e6;
-
 /* "20MB": bytes. */
 static struct error *read_limit(const char *text, int64_t *limit)
 {
     char *end;
-    const double number = text ? strtod(text, &end) : LIMIT;
+    const double number = text ? strtod(text, &end) : VIEW_BYTES;
     const double factor = !text || !strcmp(end, "")                 ? 1.0
                           : !strcmp(end, "MB") || !strcmp(end, "M") ? 1e6
                           : !strcmp(end, "kB") || !strcmp(end, "k") ? 1e3
@@ -26,41 +23,45 @@ static struct error *read_limit(const char *text, int64_t *limit)
     return NULL;
 }
 
-/* The case of FOLDER with the bodies and the FIELDS as its pictures. */
-static struct error *read_shown(const struct cli_options *options, const char *folder,
-                                struct simulation_case **input)
+/* The names in TEXT, "speed,damage", which are cut apart in place. */
+static int split_names(char *text, const char **names, int most)
 {
-    char *path = path_join(folder, "case.yaml");
-    char *pictures = text_format("output.pictures=[body, %s]",
-                                 options->fields ? options->fields : "speed, pressure");
-    const char *settings[] = {pictures};
-    struct cli_options reading = *options;
-    reading.settings = (struct text_list){1, settings};
-    struct error *error = path && pictures ? read_case(path, &reading, input) : out_of_memory();
-    free(path);
-    free(pictures);
-    return error;
+    int count = 0;
+    char *rest;
+    for (char *at = strtok_r(text, ", ", &rest); at && count < most;
+         at = strtok_r(NULL, ", ", &rest))
+        names[count++] = at;
+    return count;
 }
 
 static struct error *view_folder(const struct cli_options *options, const char *folder)
 {
+    enum { FIELDS = 16 };
     struct simulation_case *input = NULL;
-    char *path = options->output ? text_copy(options->output) : path_join(folder, "view.html");
+    const char *names[FIELDS];
+    char *written = path_join(folder, "case.yaml"),
+         *fields = text_copy(options->fields ? options->fields : ""),
+         *path = options->output ? text_copy(options->output) : path_join(folder, "view.html");
     struct view_request request = {
-        .folder = folder, .path = path, .frames = options->frames ? (int)options->frames : FRAMES};
+        .folder = folder, .path = path, .fields = names, .frames = (int)options->frames};
     struct view_result result;
-    struct error *error = path ? read_limit(options->limit, &request.limit) : out_of_memory();
+    struct error *error =
+        path && written && fields ? read_limit(options->limit, &request.limit) : out_of_memory();
     if (!error)
-        error = read_shown(options, folder, &input);
-    request.input = input;
-    if (!error)
+        error = read_case(written, options, &input);
+    if (!error) {
+        request.input = input;
+        request.field_count = split_names(fields, names, FIELDS);
         error = view_write(&request, &result);
+    }
     if (!error)
         printf("%s: %.1f MB, %lld particles, %d of %d snapshots\n", path,
                1e-6 * (double)result.bytes, (long long)result.particles, result.frames,
                result.of_frames);
     case_free(input);
     free(path);
+    free(fields);
+    free(written);
     return error;
 }
 

@@ -52,7 +52,8 @@ static const struct option option_table[] = {
      "a measured series: test.csv,time=t_us:us,value=stress_GPa:GPa,probe=gauge,field=pressure,"
      "shift=20ns; may be repeated",
      OPTION_LIST, AT(data), COMMAND_COMPARE},
-    {"--fields", "A,B", "fields that the page has beside the bodies (default: speed,pressure)",
+    {"--fields", "A,B",
+     "fields that the page has beside the bodies (default: those of the pictures, speed, pressure)",
      OPTION_TEXT, AT(fields), COMMAND_VIEW},
     {"--frames", "N", "largest number of snapshots on the page (default: 40)", OPTION_COUNT,
      AT(frames), COMMAND_VIEW},

@@ -7,11 +7,23 @@
 #include "base/memory.h"
 #include "particle/radix.h"
 
-static void names_release(struct frame_names *names)
+void frame_names_free(struct frame_names *names)
 {
     for (int i = 0; i < names->count; i++)
         free(names->name[i]);
     free(names->name);
+}
+
+struct error *frame_names_copy(const struct frame_names *from, struct frame_names *to)
+{
+    to->name = calloc((size_t)from->count + 1, sizeof *to->name);
+    if (!to->name)
+        return out_of_memory_for("pictures");
+    for (int i = 0; i < from->count; i++) {
+        to->name[i] = text_copy(from->name[i] ? from->name[i] : "?");
+        to->count += to->name[i] != NULL;
+    }
+    return NULL;
 }
 
 static void group_free(struct frame_group *group)
@@ -28,8 +40,8 @@ static void group_free(struct frame_group *group)
 
 void frame_free(struct frame *frame)
 {
-    names_release(&frame->bodies);
-    names_release(&frame->materials);
+    frame_names_free(&frame->bodies);
+    frame_names_free(&frame->materials);
     for (int i = 0; i < frame->groups; i++)
         group_free(&frame->group[i]);
     *frame = (struct frame){0};

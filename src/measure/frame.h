@@ -40,6 +40,8 @@ struct frame {
 };
 
 void frame_free(struct frame *frame);
+void frame_names_free(struct frame_names *names);
+struct error *frame_names_copy(const struct frame_names *from, struct frame_names *to);
 
 /* Sorts the members of GROUP by id, and drops cells without material and members at no place. */
 struct error *frame_order(struct frame_group *group);

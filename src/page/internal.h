@@ -89,6 +89,9 @@ struct error *page_pictures(const struct page *page);
  * appears, and the SIZE bytes of a PNG. */
 void page_png(FILE *file, const char *bytes, size_t size);
 
+/* view.c: what of view.html is the viewer begins and ends with these. */
+extern const char view_begin[], view_end[];
+
 /* study_page.c */
 struct study;
 

@@ -90,6 +90,35 @@ void page_foot(const struct page *page, bool plots)
     fprintf(page->file, "<script>\n%s</script>\n</body>\n</html>\n", page_script);
 }
 
+/* The viewer of the run (view.html), which a button opens, within the page up to a size. */
+static struct error *put_viewer(const struct page *page)
+{
+    enum { WITHIN_MOST = 5000000 };
+    char *path = path_join(page->folder, "view.html"), *text = NULL;
+    size_t size;
+    const int64_t bytes = path ? file_size(path) : 0;
+    struct error *error = !path                               ? out_of_memory_for("a report")
+                          : bytes > 0 && bytes <= WITHIN_MOST ? file_read(path, &text, &size)
+                                                              : NULL;
+    const char *begin = text ? strstr(text, view_begin) : NULL;
+    const char *end = begin ? strstr(begin, view_end) : NULL;
+    if (end || bytes > WITHIN_MOST)
+        fputs("<section id=\"particles\"><h2>Particles from any side</h2>\n", page->file);
+    if (end) {
+        fputs("<p class=\"controls\"><button id=\"open-viewer\" type=\"button\">Open the "
+              "viewer</button></p>\n<template id=\"viewer-page\">",
+              page->file);
+        fwrite(begin, 1, (size_t)(end - begin), page->file);
+        fputs("</template></section>\n", page->file);
+    } else if (bytes > WITHIN_MOST) {
+        fputs("<p><a href=\"view.html\">Open the viewer</a> (view.html).</p></section>\n",
+              page->file);
+    }
+    free(text);
+    free(path);
+    return error;
+}
+
 static struct error *put_page(const struct page *page)
 {
     const char *title = summary_value(&page->summary, "run", NULL, "title");
@@ -107,6 +136,7 @@ static struct error *put_page(const struct page *page)
     }
     page_verdict(page);
     TRY(page_pictures(page));
+    TRY(put_viewer(page));
     TRY(page_profiles(page));
     TRY(page_history(page));
     page_about(page);

@@ -90,6 +90,7 @@ const char page_style[] =
     ".dygraph-axis-label,.dygraph-label{font-size:.75rem;color:var(--faint)}\n"
     ".value{display:block;min-height:1.5em;font-weight:400;font-size:.875rem;color:var(--faint);\n"
     "font-variant-numeric:tabular-nums}\n"
+    ".viewer{width:100%;height:min(95vh,60rem);border:1px solid var(--line)}\n"
     "details{margin:0 0 .75rem}\n"
     "summary{cursor:pointer;padding:.35rem 0}\n"
     "pre{margin:.5rem 0;padding:.75rem 1rem;background:var(--panel);font-size:.8125rem;\n"
@@ -177,4 +178,12 @@ const char page_script[] =
     "  player.classList.add('on');\n"
     "  stop();\n"
     "  show(last);\n"
-    "}\n";
+    "}\n"
+    "const opener = document.getElementById('open-viewer');\n"
+    "if (opener) opener.onclick = () => {\n"
+    "  const frame = document.createElement('iframe'), style = document.querySelector('style');\n"
+    "  Object.assign(frame, {className: 'viewer', title: 'The particles of the run'});\n"
+    "  frame.srcdoc = '<!DOCTYPE html><html lang=\"en\"><head>' + style.outerHTML +\n"
+    "    '</head><body>' + document.getElementById('viewer-page').innerHTML + '</body></html>';\n"
+    "  opener.parentNode.replaceWith(frame);\n"
+    "};\n";

@@ -16,16 +16,20 @@
 #include "page/internal.h"
 #include "picture/album.h"
 
-enum { CODES = 65534, ABSENT = 65535, FIELDS_SHOWN = 12 };
+enum { CODES = 65534, ABSENT = 65535, FIELDS_SHOWN = 8 };
 /* The box is so much larger than the window on every side; strays outside are absent. */
 static const double ROOM = 0.5;
+
+const char view_begin[] = "<main id=\"viewer\">", view_end[] = "</body>";
 
 struct viewer {
     const struct view_request *request;
     struct shelf shelf;
     struct album *album;
     struct album_space space;
-    int fields;
+    int names;
+    const char *name[FIELDS_SHOWN + 1]; /* body, then fields */
+    int fields;                         /* that there are */
     const char *field[FIELDS_SHOWN];
     struct album_range range[FIELDS_SHOWN];
     double low[3], span[3];
@@ -278,14 +282,14 @@ static void put_meta(const struct viewer *v, FILE *file)
 static struct error *put_page(struct viewer *v, FILE *file)
 {
     const struct simulation_case *input = v->request->input;
-    struct page page = {.folder = v->request->folder, .file = file};
+    const struct page page = {.folder = v->request->folder, .file = file};
     page_head(&page, input->title ? input->title : input->name);
-    fputs("<main id=\"viewer\"><h1>", file);
+    fputs("<h1>", file);
     page_text(file, input->title ? input->title : input->name);
-    fprintf(file, "</h1>\n%s", asset_viewer_controls);
+    fprintf(file, "</h1>\n%s\n%s", view_begin, asset_viewer_controls);
     put_meta(v, file);
     TRY(put_frames(v, file));
-    fprintf(file, "</main><script>\n%s</script>\n</body>\n</html>\n", asset_viewer);
+    fprintf(file, "</main><script>\n%s</script>\n%s\n</html>\n", asset_viewer, view_end);
     return NULL;
 }
 
@@ -318,9 +322,10 @@ static struct error *put_file(struct viewer *v, int64_t *bytes)
 static struct error *fit(struct viewer *v, struct view_result *result)
 {
     enum { FRAMES_LEAST = 10, TRIES = 6 };
+    const int64_t limit = v->request->limit ? v->request->limit : VIEW_BYTES;
     struct error *error = put_file(v, &result->bytes);
-    for (int i = 0; i < TRIES && !error && result->bytes > v->request->limit; i++) {
-        const double over = 1.05 * (double)result->bytes / (double)v->request->limit;
+    for (int i = 0; i < TRIES && !error && result->bytes > limit; i++) {
+        const double over = 1.05 * (double)result->bytes / (double)limit;
         const int fewer = (int)maximum(FRAMES_LEAST, floor(v->frames / over));
         if (fewer < v->frames)
             choose_frames(v, fewer);
@@ -336,6 +341,44 @@ static struct error *fit(struct viewer *v, struct view_result *result)
     return error;
 }
 
+static void add_name(struct viewer *v, const char *name)
+{
+    for (int i = 0; i < v->names; i++)
+        if (!strcmp(v->name[i], name))
+            return;
+    if (v->names <= FIELDS_SHOWN)
+        v->name[v->names++] = name;
+}
+
+static void choose_fields(struct viewer *v)
+{
+    const struct view_request *request = v->request;
+    add_name(v, "body");
+    for (int i = 0; i < request->field_count; i++)
+        add_name(v, request->fields[i]);
+    if (request->field_count)
+        return;
+    for (int i = 0; album_name_of(request->input, i); i++) {
+        const struct name_list panels = album_panels(request->input, i);
+        for (int k = 0; k < panels.count; k++)
+            if (!album_is_category(panels.names[k]) && strcmp(panels.names[k], "schlieren") != 0)
+                add_name(v, panels.names[k]);
+    }
+    add_name(v, "speed");
+    add_name(v, "pressure");
+}
+
+static struct error *find_fields(struct viewer *v)
+{
+    for (int i = 1; i < v->names; i++) {
+        if (album_range(v->album, i, &v->range[v->fields]))
+            v->field[v->fields++] = v->name[i];
+        else if (v->request->field_count)
+            return error_new(ERROR_INPUT, "no snapshot has the field \"%.60s\"", v->name[i]);
+    }
+    return NULL;
+}
+
 static struct error *prepare(struct viewer *v)
 {
     TRY(shelf_open(v->request->folder, &v->shelf));
@@ -345,12 +388,11 @@ static struct error *prepare(struct viewer *v)
     v->time = memory_allocate((size_t)v->shelf.frames * sizeof *v->time);
     if (!v->frame || !v->time)
         return out_of_memory_for("the viewer");
-    TRY(album_create(v->request->input, 1, &v->album));
-    choose_frames(v, v->request->frames);
+    choose_fields(v);
+    TRY(album_create_plain(v->request->input, v->name, v->names, &v->album));
+    choose_frames(v, v->request->frames ? v->request->frames : VIEW_FRAMES);
     TRY(study_run(v));
-    for (int i = 0; i < album_count(v->album) && v->fields < FIELDS_SHOWN; i++)
-        if (album_range(v->album, i, &v->range[v->fields]))
-            v->field[v->fields++] = album_name(v->album, i);
+    TRY(find_fields(v));
     v->largest = 0.62 * v->space.diameter;
     return NULL;
 }

@@ -119,16 +119,16 @@ static struct picture_input standard_input(void)
                                             .percentiles = {2, {0.5, 99.5, 0.0}}}};
 }
 
-struct error *album_create(const struct simulation_case *input, int threads, struct album **album)
+/* An album without pictures, with room for COUNT. */
+static struct error *album_make(const struct simulation_case *input, int threads, int count,
+                                struct album **album)
 {
     static const char *const always[] = {"velocity.x", "velocity.y",  "velocity.z",
                                          "density",    "sound_speed", "speed"};
-    const struct named_map *pictures = &input->output.pictures;
-    const struct picture_input *items = pictures->items;
     struct album *made = memory_allocate(sizeof *made);
     *album = made;
     if (made)
-        made->picture = memory_allocate(((size_t)pictures->count + 1) * sizeof *made->picture);
+        made->picture = memory_allocate(((size_t)count + 1) * sizeof *made->picture);
     if (!made || !made->picture)
         return out_of_memory_for("pictures");
     made->input = input;
@@ -139,25 +139,35 @@ struct error *album_create(const struct simulation_case *input, int threads, str
     made->standard = standard_input();
     for (size_t i = 0; i < COUNT_OF(always); i++)
         need_field(made, always[i]);
-    for (int i = 0; album_name_of(input, i); i++)
-        add_picture(made, album_name_of(input, i),
-                    wants_standard(input) ? &made->standard : &items[i], album_panels(input, i));
     return NULL;
 }
 
-static void names_drop(struct frame_names *names)
+struct error *album_create(const struct simulation_case *input, int threads, struct album **album)
 {
-    for (int i = 0; i < names->count; i++)
-        free(names->name[i]);
-    free(names->name);
+    const struct picture_input *items = input->output.pictures.items;
+    TRY(album_make(input, threads, input->output.pictures.count, album));
+    for (int i = 0; album_name_of(input, i); i++)
+        add_picture(*album, album_name_of(input, i),
+                    wants_standard(input) ? &(*album)->standard : &items[i],
+                    album_panels(input, i));
+    return NULL;
+}
+
+struct error *album_create_plain(const struct simulation_case *input, const char *const *fields,
+                                 int count, struct album **album)
+{
+    TRY(album_make(input, 1, count, album));
+    for (int i = 0; i < count; i++)
+        add_picture(*album, fields[i], &(*album)->standard, (struct name_list){0});
+    return NULL;
 }
 
 void album_free(struct album *album)
 {
     if (!album)
         return;
-    names_drop(&album->bodies);
-    names_drop(&album->materials);
+    frame_names_free(&album->bodies);
+    frame_names_free(&album->materials);
     free(album->picture);
     free(album);
 }
@@ -175,22 +185,10 @@ const char *const *album_fields(const struct album *album, int *count)
     return album->field;
 }
 
-static struct error *copy_names(const struct frame_names *from, struct frame_names *to)
-{
-    to->name = calloc((size_t)from->count + 1, sizeof *to->name);
-    if (!to->name)
-        return out_of_memory_for("pictures");
-    for (int i = 0; i < from->count; i++) {
-        to->name[i] = text_copy(from->name[i] ? from->name[i] : "?");
-        to->count += to->name[i] != NULL;
-    }
-    return NULL;
-}
-
 struct error *album_begin(struct album *album, const struct frame *first, const struct frame *last)
 {
-    TRY(copy_names(&first->bodies, &album->bodies));
-    TRY(copy_names(&first->materials, &album->materials));
+    TRY(frame_names_copy(&first->bodies, &album->bodies));
+    TRY(frame_names_copy(&first->materials, &album->materials));
     for (int i = 0; i < album->count; i++)
         TRY(error_context(view_find(album, first, last, &album->picture[i]), "picture \"%s\"",
                           album->picture[i].name));
@@ -365,5 +363,5 @@ bool album_range(const struct album *album, int picture, struct album_range *ran
 {
     const struct panel *panel = &album->picture[picture].panel[0];
     *range = (struct album_range){panel->scale.range.low, panel->scale.range.high, panel->unit};
-    return !panel->category;
+    return !panel->category && panel->extremes.low <= panel->extremes.high;
 }

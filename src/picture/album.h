@@ -14,6 +14,10 @@ struct album;
 /* The pictures of INPUT, which must outlive the album; where it says nothing of pictures one of the
  * bodies, or of the pressure of a gas, in 2-D and 3-D. */
 struct error *album_create(const struct simulation_case *input, int threads, struct album **album);
+
+/* Pictures of the COUNT FIELDS, which must outlive the album, as without any key. */
+struct error *album_create_plain(const struct simulation_case *input, const char *const *fields,
+                                 int count, struct album **album);
 void album_free(struct album *album);
 
 int album_count(const struct album *album);
@@ -55,7 +59,8 @@ struct album_space {
 };
 void album_space(const struct album *album, struct album_space *space);
 
-/* The values that the colours of the first panel span; false where it has categories. */
+/* The values that the colours of the first panel span; false where it has categories, or no frame
+ * has the field. */
 bool album_range(const struct album *album, int picture, struct album_range *range);
 
 /* The names of the pictures of INPUT, as album_name gives them: pictures/NAME-NNNNNN.png. NULL

@@ -46,3 +46,12 @@ void row_bands_free(struct row_bands *bands)
     free(bands->begin);
     free(bands->item);
 }
+
+struct pixel_box row_bands_box(float x, float y, float reach, int band, int width, int height)
+{
+    const int low = band * BAND_ROWS, high = low + BAND_ROWS - 1;
+    return (struct pixel_box){(int)maximum(floorf(x - reach), 0),
+                              (int)minimum(ceilf(x + reach), width - 1),
+                              (int)maximum(floorf(y - reach), low),
+                              (int)minimum(ceilf(y + reach), high < height ? high : height - 1)};
+}

@@ -19,6 +19,13 @@ struct colour colouring_of(const struct colouring *colouring, double value)
     return number < 1 ? dust : number > FRAGMENT_COLOURS ? small : colour_of_category(number - 1);
 }
 
+uint32_t pixel_of(struct colour colour, double shade)
+{
+    return 0xff000000u | (uint32_t)(colour.red * shade * 255.0 + 0.5) << 16 |
+           (uint32_t)(colour.green * shade * 255.0 + 0.5) << 8 |
+           (uint32_t)(colour.blue * shade * 255.0 + 0.5);
+}
+
 static bool is_outside(const struct view *view, const float place[3])
 {
     for (int axis = 0; axis < view->dimension; axis++)

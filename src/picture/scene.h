@@ -65,10 +65,15 @@ struct colouring {
 
 struct colour colouring_of(const struct colouring *colouring, double value);
 
+/* The pixel of a colour, darkened to SHADE of it. */
+uint32_t pixel_of(struct colour colour, double shade);
+
 /* The images of the scene across mirror planes: image K of 1 << mirrors; SIGN gets 1 or -1 for
  * each axis. */
 int view_images(const struct view *view);
 void view_image(const struct view *view, int image, double sign[3]);
+void view_reflect(const struct view *view, const double sign[3], const float place[3],
+                  double at[3]);
 
 /* section.c: cells of the nearest particle, filled, with values blended inside a body. STEEPEST:
  * NULL, or gets the 99.9 percentile of the gradient of the values, per pixel; then nothing is
@@ -99,5 +104,11 @@ struct span {
 struct error *row_bands_make(const struct span *span, int64_t count, int height,
                              struct row_bands *bands);
 void row_bands_free(struct row_bands *bands);
+
+/* The pixels of BAND within REACH of (x, y), in a raster of WIDTH x HEIGHT. */
+struct pixel_box {
+    int left, right, top, bottom; /* last ones included */
+};
+struct pixel_box row_bands_box(float x, float y, float reach, int band, int width, int height);
 
 #endif

@@ -71,9 +71,7 @@ static struct error *place_marks(struct drawing *d)
         for (int64_t i = 0; i < count; i++) {
             const struct scene_item *item = &d->scene->item[i];
             double at[3];
-            for (int axis = 0; axis < 3; axis++)
-                at[axis] = sign[axis] > 0.0 ? item->place[axis]
-                                            : 2.0 * v->mirror_at[axis] - item->place[axis];
+            view_reflect(v, sign, item->place, at);
             struct mark *mark = &d->mark[image * count + i];
             mark->x =
                 (float)(d->projection->x + d->projection->scale * (at[v->across] - middle[0]));
@@ -92,28 +90,14 @@ static struct error *place_marks(struct drawing *d)
     return error;
 }
 
-/* The pixels of a band that a mark may touch. */
-struct box {
-    int left, right, top, bottom; /* last ones included */
-};
-
-static struct box box_of(const struct drawing *d, const struct mark *mark, float reach, int band)
-{
-    const int low = band * BAND_ROWS, high = low + BAND_ROWS - 1;
-    const int end = high < d->height ? high : d->height - 1;
-    return (struct box){(int)maximum(floorf(mark->x - reach), 0),
-                        (int)minimum(ceilf(mark->x + reach), d->width - 1),
-                        (int)maximum(floorf(mark->y - reach), low),
-                        (int)minimum(ceilf(mark->y + reach), end)};
-}
-
 static void find_nearest(struct drawing *d, int band)
 {
     for (int64_t k = d->bands.begin[band]; k < d->bands.begin[band + 1]; k++) {
         const int32_t m = d->bands.item[k];
         const struct mark *mark = &d->mark[m];
         const bool cell = item_of(d, m)->cell;
-        const struct box box = box_of(d, mark, reach_of(d, mark, cell), band);
+        const struct pixel_box box =
+            row_bands_box(mark->x, mark->y, reach_of(d, mark, cell), band, d->width, d->height);
         for (int y = box.top; y <= box.bottom; y++)
             for (int x = box.left; x <= box.right; x++) {
                 const float distance = distance_of(d, mark, cell, x, y);
@@ -234,7 +218,8 @@ static void blend(struct drawing *d, int band, float *sum, float *weights)
         const struct mark *mark = &d->mark[m];
         const struct scene_item *item = item_of(d, m);
         const float reach = item->cell ? 1.0f * mark->diameter : reach_of(d, mark, false);
-        const struct box box = box_of(d, mark, reach, band);
+        const struct pixel_box box =
+            row_bands_box(mark->x, mark->y, reach, band, d->width, d->height);
         if (isnan(item->value))
             continue;
         for (int y = box.top; y <= box.bottom; y++)
@@ -260,13 +245,6 @@ static void blend(struct drawing *d, int band, float *sum, float *weights)
                 d->value[p] =
                     weights[q] > 0.0f ? sum[q] / weights[q] : item_of(d, d->nearest[p])->value;
         }
-}
-
-static uint32_t pack(struct colour colour, double shade)
-{
-    return 0xff000000u | (uint32_t)(colour.red * shade * 255.0 + 0.5) << 16 |
-           (uint32_t)(colour.green * shade * 255.0 + 0.5) << 8 |
-           (uint32_t)(colour.blue * shade * 255.0 + 0.5);
 }
 
 /* What the pixel at P shows, for outlines: -1: nothing. */
@@ -357,7 +335,7 @@ static void paint(const struct drawing *d, int band, struct raster *raster)
             if (!d->filled[p])
                 continue;
             const double shade = is_outline(d, x, y) ? 0.25 : 1.0;
-            raster->pixel[p] = pack(colour_at(d, x, y), shade);
+            raster->pixel[p] = pixel_of(colour_at(d, x, y), shade);
         }
 }
 

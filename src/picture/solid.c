@@ -105,9 +105,7 @@ static struct error *place_marks(struct drawing *d)
             const struct scene_item *item = &d->scene->item[i];
             struct mark *mark = &d->mark[image * count + i];
             double at[3], x, y;
-            for (int axis = 0; axis < 3; axis++)
-                at[axis] = sign[axis] > 0.0 ? item->place[axis]
-                                            : 2.0 * d->view->mirror_at[axis] - item->place[axis];
+            view_reflect(d->view, sign, item->place, at);
             const bool before = view_project(d->view, d->projection, at, &x, &y);
             mark->place = vector_of(at);
             mark->depth = dot(minus(mark->place, d->eye), d->away);
@@ -185,19 +183,11 @@ static bool meet(const struct drawing *d, const struct mark *mark, int x, int y,
     return meeting->distance < 1.0f;
 }
 
-struct box {
-    int left, right, top, bottom; /* last ones included */
-};
-static struct box box_of(const struct drawing *d, const struct mark *mark, int band)
+static struct pixel_box box_of(const struct drawing *d, const struct mark *mark, int band)
 {
-    const int low = band * BAND_ROWS, high = low + BAND_ROWS - 1;
-    const int end = high < d->height ? high : d->height - 1;
     const float widest = d->view->cuts ? DISC / SPHERE : 1.0f;
     const float reach = maximum(mark->radius, 0.5f * d->dot) * widest;
-    return (struct box){(int)maximum(floorf(mark->x - reach), 0),
-                        (int)minimum(ceilf(mark->x + reach), d->width - 1),
-                        (int)maximum(floorf(mark->y - reach), low),
-                        (int)minimum(ceilf(mark->y + reach), end)};
+    return row_bands_box(mark->x, mark->y, reach, band, d->width, d->height);
 }
 
 /* Of two faces that are equally deep, as all of a cut are, the nearer particle is seen. */
@@ -215,7 +205,7 @@ static void find_nearest(struct drawing *d, int band)
     for (int64_t k = d->bands.begin[band]; k < d->bands.begin[band + 1]; k++) {
         const int32_t m = d->bands.item[k];
         const struct mark *mark = &d->mark[m];
-        const struct box box = box_of(d, mark, band);
+        const struct pixel_box box = box_of(d, mark, band);
         for (int y = box.top; y <= box.bottom; y++)
             for (int x = box.left; x <= box.right; x++) {
                 struct sample *sample = &d->sample[(int64_t)y * d->width + x];
@@ -240,7 +230,7 @@ static void blend(struct drawing *d, int band)
         const int32_t m = d->bands.item[k];
         const struct mark *mark = &d->mark[m];
         const struct scene_item *item = item_of(d, m);
-        const struct box box = box_of(d, mark, band);
+        const struct pixel_box box = box_of(d, mark, band);
         if (isnan(item->value))
             continue;
         for (int y = box.top; y <= box.bottom; y++)
@@ -403,13 +393,6 @@ static float outline_at(const struct drawing *d, int x, int y)
     return dark;
 }
 
-static uint32_t pack(struct colour colour, double shade)
-{
-    return 0xff000000u | (uint32_t)(colour.red * shade * 255.0 + 0.5) << 16 |
-           (uint32_t)(colour.green * shade * 255.0 + 0.5) << 8 |
-           (uint32_t)(colour.blue * shade * 255.0 + 0.5);
-}
-
 static void paint(const struct drawing *d, int y, struct raster *raster)
 {
     for (int x = 0; x < d->width; x++) {
@@ -421,8 +404,8 @@ static void paint(const struct drawing *d, int y, struct raster *raster)
         const float lit = 0.42f + 0.58f * maximum(dot(normal, d->light), 0.0f);
         const float dark = minimum(1.6f * occlusion_at(d, x, y, normal), 0.75f);
         const float line = 1.0f - 0.6f * outline_at(d, x, y);
-        raster->pixel[p] =
-            pack(colouring_of(d->colouring, sample->value), (double)(lit * (1.0f - dark) * line));
+        raster->pixel[p] = pixel_of(colouring_of(d->colouring, sample->value),
+                                    (double)(lit * (1.0f - dark) * line));
     }
 }
 

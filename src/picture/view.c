@@ -7,7 +7,7 @@
 #include "picture/album_internal.h"
 
 /* Of the mass of each body at the end so much is outside on each side. */
-static const double STRAY = 0.001;
+static const double STRAY = 0.005;
 static const double MARGIN = 0.02;
 
 /* What of a frame the search for a view looks at. */
@@ -34,6 +34,12 @@ void view_image(const struct view *view, int image, double sign[3])
         if (view->mirrored[axis] && axis != view->normal)
             sign[axis] = image >> bit++ & 1 ? -1.0 : 1.0;
     }
+}
+
+void view_reflect(const struct view *view, const double sign[3], const float place[3], double at[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        at[axis] = sign[axis] > 0.0 ? place[axis] : 2.0 * view->mirror_at[axis] - place[axis];
 }
 
 static void include_member(struct bodies *bodies, const struct frame_group *group, int64_t i)

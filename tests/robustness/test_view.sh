@@ -35,6 +35,8 @@ rm -rf shield
 grep -q "of 9 snapshots\|9 of 9" view.log || fail "view said $(cat view.log)"
 "$BOLIDE" view shield --limit 150kB --output small.html >small.log 2>&1 || fail "a small page: $(cat small.log)"
 [ "$(stat -c %s small.html)" -le 150000 ] || fail "the small page has $(stat -c %s small.html) bytes"
+"$BOLIDE" view shield --fields speed,colour >wrong.log 2>&1
+[ $? = 2 ] && grep -q 'no snapshot has the field "colour"' wrong.log || fail "a wrong field: $(cat wrong.log)"
 "$BOLIDE" view shield --limit many >wrong.log 2>&1
 [ $? = 2 ] || fail "a wrong limit: $(cat wrong.log)"
 
@@ -111,8 +113,29 @@ look();
 </script>
 HTML
 cat shield/view.html probe.txt >probed.html
-timeout 600 /usr/bin/chromium --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
-    --disable-background-networking --user-data-dir="$home" --virtual-time-budget=20000 --window-size=900,700 \
-    --dump-dom "file://$PWD/probed.html" >seen.html 2>browser.log
+browse() {
+    timeout 600 /usr/bin/chromium --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
+        --disable-background-networking --user-data-dir="$home" --virtual-time-budget=20000 \
+        --window-size=900,700 --dump-dom "file://$PWD/probed.html" 2>browser.log
+}
+browse >seen.html
 grep -q '<title>same: ; faults: ; requests: 0; reset: true' seen.html || fail "the viewer: $(grep -o '<title>[^<]*' seen.html)"
+
+# The report holds the viewer, which a button opens.
+cat >probe.txt <<'HTML'
+<script>
+document.getElementById('open-viewer').click();
+const look = () => {
+  const inner = document.querySelector('iframe.viewer').contentWindow, page = inner.bolide;
+  if (inner.bolideFailed) document.title = 'failed: ' + inner.bolideFailed;
+  else if (!page || !page.ready) setTimeout(look, 50);
+  else document.title = 'opened with ' + inner.document.getElementById('time').max + ' and ' +
+    [...inner.document.getElementById('field').options].map(o => o.textContent);
+};
+look();
+</script>
+HTML
+cat shield/report.html probe.txt >probed.html
+browse >seen.html
+grep -q '<title>opened with 8 and body,speed,pressure<' seen.html || fail "the report: $(grep -o '<title>[^<]*' seen.html)"
 exit $status

@@ -123,8 +123,12 @@ static void particles_come_back_in_the_order_of_their_ids(void **state)
     char path[96];
     snprintf(path, sizeof path, "%s/000000.vtkhdf", folder);
     struct simulation *simulation = build_simulation(6);
-    const struct population population = simulation_population(simulation);
+    struct population population = simulation_population(simulation);
+    struct column with[COLUMNS_MAX];
     struct frame frame = {0};
+    memcpy(with, population.column, (size_t)population.columns * sizeof *with);
+    with[population.columns++] = (struct column){"diameter", "m", NULL, 1, -1, compute_mass};
+    population.column = with;
     assert_null(snapshot_write(path, simulation, &population));
     assert_null(snapshot_read(path, fields, COUNT_OF(fields), &frame));
     const struct frame_group *group = &frame.group[0];
