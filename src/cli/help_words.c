@@ -128,7 +128,7 @@ static const struct answer answers[] = {
      "tasks/restart.md"},
     {" film movie video animation animate gif ",
      "bolide film FOLDER [NAME] joins the frames of a picture to an mp4 with ffmpeg, or to an\n"
-     "animated PNG. report.html has a player of them; bolide view FOLDER writes a page to turn.",
+     "animated PNG. report.html has a player of them, and a viewer (view.html).",
      "tasks/results.md"},
     {" paraview vtk vtkhdf visit ovito python h5py hdf5 csv postprocess postprocessing plot ",
      "Snapshots are VTKHDF files: open snapshots.vtkhdf.series in ParaView, or single files\n"

@@ -1,6 +1,6 @@
 /* The data of the viewer: positions with 16 bits in a box about the window, fields with 8 bits over
- * their range, each frame as its difference to the one before, in planes of bytes, deflated, as
- * base64. viewer.js reads and draws them. A particle that a frame does not have is at 65535 on each
+ * their range, each frame as its difference to the one before, positions as that to free flight where
+ * this is less, in planes of bytes, deflated, as base64. viewer.js reads and draws them. A particle that a frame does not have is at 65535 on each
  * axis. */
 #include "page/view.h"
 
@@ -38,9 +38,9 @@ struct viewer {
     double *time;
     int64_t count; /* of particles in any frame, every STRIDE-th */
     uint64_t *id;
-    unsigned char *still;      /* body, radius */
-    unsigned char *now, *last; /* the planes of a frame, and of the one before */
-    double largest;            /* radius, m */
+    unsigned char *still;               /* body, radius */
+    unsigned char *now, *last, *before; /* the planes of a frame, and of those before */
+    double largest;                     /* radius, m */
 };
 
 /* What is shown of a frame: particles, or the cells of a gas. */
@@ -181,7 +181,8 @@ static void encode(struct viewer *v, const struct frame *frame)
     }
 }
 
-static struct error *put_blob(FILE *file, const char *id, const unsigned char *bytes, size_t size)
+static struct error *put_blob(FILE *file, const char *id, int order, const unsigned char *bytes,
+                              size_t size)
 {
     uLongf packed = compressBound((uLong)size);
     unsigned char *room = memory_allocate(packed + 1);
@@ -189,17 +190,49 @@ static struct error *put_blob(FILE *file, const char *id, const unsigned char *b
         free(room);
         return out_of_memory_for("the viewer");
     }
-    fprintf(file, "<script type=\"text/plain\" id=\"%s\">", id);
+    fprintf(file, "<script type=\"text/plain\" id=\"%s\" data-order=\"%d\">", id, order);
     page_base64(file, room, packed);
     fputs("</script>\n", file);
     free(room);
     return NULL;
 }
 
-/* The frames, each as its difference to the one before, then what does not change. */
+/* The whole number of position K in PLANES. */
+static int place_code(const struct viewer *v, const unsigned char *planes, int64_t k)
+{
+    return planes[k] | planes[3 * v->count + k] << 8;
+}
+
+/* What position K is expected to be: 0, that of the frame before, or where free flight takes it. */
+static int place_expected(const struct viewer *v, int64_t k, int order)
+{
+    return order == 0   ? 0
+           : order == 1 ? place_code(v, v->last, k)
+                        : 2 * place_code(v, v->last, k) - place_code(v, v->before, k);
+}
+
+static int place_difference(const struct viewer *v, int64_t k, int order)
+{
+    return (place_code(v, v->now, k) - place_expected(v, k, order)) & 0xffff;
+}
+
+/* Which of the two expectations is nearer to the frame NUMBER. */
+static int choose_order(const struct viewer *v, int number)
+{
+    int64_t sum[3] = {0};
+    for (int64_t k = 0; k < 3 * v->count && number > 1; k++)
+        for (int order = 1; order <= 2; order++) {
+            const int off = place_difference(v, k, order),
+                      least = off < 0x8000 ? off : 0x10000 - off;
+            sum[order] += least < 256 ? least : 256;
+        }
+    return number > 1 && sum[2] < sum[1] ? 2 : number > 0;
+}
+
+/* The frames, each as its difference to what those before let expect, then what does not change. */
 static struct error *put_frames(struct viewer *v, FILE *file)
 {
-    const size_t bytes = (size_t)((6 + v->fields) * v->count);
+    const size_t places = (size_t)(6 * v->count), bytes = places + (size_t)(v->fields * v->count);
     unsigned char *difference = memory_allocate(bytes + 1);
     struct error *error = difference ? NULL : out_of_memory_for("the viewer");
     memset(v->last, 0, bytes);
@@ -211,20 +244,21 @@ static struct error *put_frames(struct viewer *v, FILE *file)
             break;
         encode(v, &frame);
         frame_free(&frame);
-        for (int64_t k = 0; k < 3 * v->count; k++) { /* of positions the whole number */
-            const unsigned now = v->now[k] | (unsigned)v->now[3 * v->count + k] << 8;
-            const unsigned last = v->last[k] | (unsigned)v->last[3 * v->count + k] << 8;
-            difference[k] = (now - last) & 255;
-            difference[3 * v->count + k] = (unsigned char)((now - last) >> 8 & 255);
+        const int order = choose_order(v, i);
+        for (int64_t k = 0; k < 3 * v->count; k++) {
+            const int off = place_difference(v, k, order);
+            difference[k] = off & 255;
+            difference[3 * v->count + k] = (unsigned char)(off >> 8);
         }
-        for (size_t k = (size_t)(6 * v->count); k < bytes; k++)
+        for (size_t k = places; k < bytes; k++)
             difference[k] = (unsigned char)(v->now[k] - v->last[k]);
         snprintf(id, sizeof id, "f%d", i);
-        error = put_blob(file, id, difference, bytes);
+        error = put_blob(file, id, order, difference, bytes);
+        memcpy(v->before, v->last, places);
         memcpy(v->last, v->now, bytes);
     }
     free(difference);
-    return error ? error : put_blob(file, "still", v->still, (size_t)(2 * v->count));
+    return error ? error : put_blob(file, "still", 0, v->still, (size_t)(2 * v->count));
 }
 
 static void put_vector(FILE *file, const char *name, double x, double y, double z)
@@ -303,10 +337,12 @@ static struct error *put_file(struct viewer *v, int64_t *bytes)
     free(v->still);
     free(v->now);
     free(v->last);
+    free(v->before);
+    v->before = memory_allocate(planes);
     v->still = memory_allocate((size_t)(2 * v->count) + 1);
     v->now = memory_allocate(planes);
     v->last = memory_allocate(planes);
-    if (!v->still || !v->now || !v->last)
+    if (!v->still || !v->now || !v->last || !v->before)
         return out_of_memory_for("the viewer");
     TRY(file_begin(path, &file));
     struct error *error = put_page(v, file);
@@ -413,5 +449,6 @@ struct error *view_write(const struct view_request *request, struct view_result 
     free(v.still);
     free(v.now);
     free(v.last);
+    free(v.before);
     return error;
 }

@@ -13,16 +13,18 @@ async function blob(id) {
 const N = M.count, T = M.times.length;
 // still: body, radius; frames: differences from the frame before, byte planes (low x y z, high x y z, fields)
 const still = await blob('still'), bodyOf = still.subarray(0, N), radiusOf = still.subarray(N, 2 * N);
-const frames = []; let last = null;
+// order 1: to the frame before; 2: of positions to where free flight takes them
+const frames = []; let last = null, before = null;
 for (let f = 0; f < T; f++) {
-  const d = await blob('f' + f), pos = new Uint16Array(3 * N), fields = [];
+  const d = await blob('f' + f), order = +$('f' + f).dataset.order, pos = new Uint16Array(3 * N), fields = [];
   for (let a = 0; a < 3; a++) for (let i = 0, lo = a * N, hi = (3 + a) * N; i < N; i++) {
-    const v = d[lo + i] | d[hi + i] << 8; pos[3 * i + a] = last ? last.pos[3 * i + a] + v : v; }
+    const v = d[lo + i] | d[hi + i] << 8, k = 3 * i + a;
+    pos[k] = order === 0 ? v : order === 1 ? last.pos[k] + v : 2 * last.pos[k] - before.pos[k] + v; }
   for (let k = 0; k < M.fields.length; k++) {
     const s = d.subarray((6 + k) * N, (7 + k) * N), o = new Uint8Array(N);
     for (let i = 0; i < N; i++) o[i] = last ? last.fields[k][i] + s[i] : s[i];
     fields.push(o); }
-  frames.push(last = {pos, fields});
+  before = last; frames.push(last = {pos, fields});
 }
 const loadMs = performance.now() - t0;
 const canvas = $('gl'), over = $('over'), gl = canvas.getContext('webgl2', {antialias: false, preserveDrawingBuffer: true});

@@ -183,10 +183,20 @@ static bool meet(const struct drawing *d, const struct mark *mark, int x, int y,
     return meeting->distance < 1.0f;
 }
 
+/* The radius that is drawn, in pixels and in metres. */
+static float drawn_radius(const struct drawing *d, const struct mark *mark)
+{
+    return maximum(mark->radius, 0.5f * d->dot);
+}
+static float drawn_metres(const struct drawing *d, const struct mark *mark)
+{
+    return mark->metres * drawn_radius(d, mark) / maximum(mark->radius, 1e-6f);
+}
+
 static struct pixel_box box_of(const struct drawing *d, const struct mark *mark, int band)
 {
     const float widest = d->view->cuts ? DISC / SPHERE : 1.0f;
-    const float reach = maximum(mark->radius, 0.5f * d->dot) * widest;
+    const float reach = drawn_radius(d, mark) * widest;
     return row_bands_box(mark->x, mark->y, reach, band, d->width, d->height);
 }
 
@@ -258,21 +268,17 @@ static void blend(struct drawing *d, int band)
 
 static bool is_sphere(const struct sample *sample) { return sample->item >= 0 && sample->cut < 0; }
 
-static bool is_smoothed(const struct drawing *d, const struct sample *sample)
-{
-    return is_sphere(sample) && d->mark[sample->item].radius >= 2.0f;
-}
-
 /* The depth of row or column neighbours, averaged where they belong to the same surface: SURFACE
  * has the depths of spheres, and FAR elsewhere. */
 static float smoothed(const struct drawing *d, const float *surface, int x, int y, bool rows)
 {
     const int64_t p = (int64_t)y * d->width + x, stride = rows ? d->width : 1;
     const struct mark *mark = &d->mark[d->sample[p].item];
-    const int reach = (int)minimum(SMOOTH_MAX, 2.0f * mark->radius), step = 1 + reach / SMOOTH_TAPS;
+    const int reach = (int)minimum(SMOOTH_MAX, 2.0f * drawn_radius(d, mark)),
+              step = 1 + reach / SMOOTH_TAPS;
     const int at = rows ? y : x, most = (rows ? d->height : d->width) - 1;
     const int before = at < reach ? at : reach, behind = most - at < reach ? most - at : reach;
-    const float thin = 1.0f / (2.4f * mark->metres), short_of = 1.0f / (float)(reach + 1);
+    const float thin = 1.0f / (2.4f * drawn_metres(d, mark)), short_of = 1.0f / (float)(reach + 1);
     float sum = 0.0f, weights = 0.0f;
     for (int j = -(before / step) * step; j <= behind; j += step) {
         /* parabolas that end at the reach, and where another surface begins */
@@ -300,8 +306,8 @@ static void smooth(struct drawing *d)
         for (int y = 0; y < d->height; y++)
             for (int x = 0; x < d->width; x++) {
                 const int64_t p = (int64_t)y * d->width + x;
-                next[p] = is_smoothed(d, &d->sample[p]) ? smoothed(d, surface, x, y, round % 2)
-                                                        : surface[p];
+                next[p] =
+                    is_sphere(&d->sample[p]) ? smoothed(d, surface, x, y, round % 2) : surface[p];
             }
     }
     for (int64_t p = 0; p < pixels; p++)
@@ -323,7 +329,7 @@ static struct vector slope_at(const struct drawing *d, int x, int y, bool down)
             jump[side] = fabsf(other->smooth - sample->smooth);
     }
     const int side = jump[1] <= jump[0], step = side ? 1 : -1;
-    if (jump[side] > 2.0f * d->mark[sample->item].metres)
+    if (jump[side] > 2.0f * drawn_metres(d, &d->mark[sample->item]))
         return down ? times(d->top, -1.0f) : d->right;
     const float depth = d->sample[p + (side ? stride : -stride)].smooth;
     const struct vector other = place_of(d, down ? x : x + step, down ? y + step : y, depth);
@@ -339,8 +345,6 @@ static struct vector normal_at(const struct drawing *d, int x, int y)
         (&normal.x)[cut->axis] = (float)cut->sign;
         return normal;
     }
-    if (d->mark[sample->item].radius < 2.0f)
-        return times(d->away, -1.0f);
     const struct vector normal = unit(cross(slope_at(d, x, y, false), slope_at(d, x, y, true)));
     return dot(normal, d->away) > 0.0f ? times(normal, -1.0f) : normal;
 }

@@ -383,6 +383,45 @@ static void in_one_dimension_all_members_are_dots(void **state)
     frame_free(&frame);
 }
 
+/* The mean brightness of the coloured pixels of a slab of N x N x 2 particles,
+ * seen obliquely. */
+static double brightness_of_slab(int n)
+{
+    char *names[] = {"body"};
+    struct picture_input pictures[1];
+    struct simulation_case input = case_of(3, names, 1, pictures);
+    struct frame frame = lattice(n, n, 2);
+    double sum = 0.0, count = 0.0;
+    for (int64_t i = 0; i < frame.group[0].count; i++) {
+        for (int axis = 0; axis < 3; axis++)
+            frame.group[0].position[i][axis] *= 100.0f / (float)n;
+        frame.group[0].diameter[i] *= 100.0f / (float)n;
+    }
+    struct album *album = album_of(&input, 2, &frame, &frame);
+    cairo_surface_t *surface = draw_surface(album, 0, &frame);
+    for (int row = 0; row < cairo_image_surface_get_height(surface); row++)
+        for (int column = 0; column < cairo_image_surface_get_width(surface); column++) {
+            const uint32_t colour = pixel(surface, column, row);
+            const int red = colour >> 16 & 255, green = colour >> 8 & 255, blue = colour & 255;
+            const bool coloured = abs(red - blue) > 20;
+            sum += coloured ? red + green + blue : 0;
+            count += coloured;
+        }
+    cairo_surface_destroy(surface);
+    album_free(album);
+    frame_free(&frame);
+    assert_true(count > 50000.0);
+    return sum / count;
+}
+
+static void a_face_is_as_bright_of_small_particles(void **state)
+{
+    (void)state;
+    const double large = brightness_of_slab(50), small = brightness_of_slab(400);
+    if (fabs(small / large - 1.0) > 0.1)
+        fail_msg("%g of large particles, %g of small ones", large, small);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -392,6 +431,7 @@ int main(void)
         cmocka_unit_test(frames_have_one_size_and_a_uniform_field_one_colour),
         cmocka_unit_test(cracks_stay_visible_and_stretched_material_has_none),
         cmocka_unit_test(bodies_have_a_colour_each),
+        cmocka_unit_test(a_face_is_as_bright_of_small_particles),
         cmocka_unit_test(in_one_dimension_all_members_are_dots),
         cmocka_unit_test(any_input_is_drawn_on_a_page_of_sane_size),
     };
