@@ -22,9 +22,10 @@ enum {
     AXIS_HEIGHT = 42,
     BAR_GAP = 10,
     BAR_THICKNESS = 11,
-    BOX_MARGIN = 52, /* beside and below a perspective, for its axes */
+    BOX_SIDE = 80, /* beside a perspective, for its axes; below it */
+    BOX_MARGIN = 52,
     BOX_TOP = 10,
-    SOLID_HEIGHT = 520,
+    SOLID_HEIGHT = 600,
     LEGEND_MAX = 24,
     FRAGMENTS_NAMED = 5
 };
@@ -117,13 +118,14 @@ static void lay_solid(const struct picture *picture, struct sheet *sheet)
         range_include(&x, column);
         range_include(&y, row);
     }
-    sheet->box_left = 0.0;
-    sheet->box_width = sheet->panel_width;
-    const double room = sheet->box_width - 2 * BOX_MARGIN;
+    const double room = sheet->panel_width - 2 * BOX_SIDE;
     double scale = room / length_of(x);
     if (scale * length_of(y) > SOLID_HEIGHT)
         scale = SOLID_HEIGHT / length_of(y);
+    sheet->box_left = 0.0;
+    sheet->box_width = ceil(maximum(scale * length_of(x) + 2 * BOX_SIDE, PAGE_WIDTH_MIN));
     sheet->box_height = ceil(scale * length_of(y) + BOX_TOP + BOX_MARGIN);
+    sheet->panel_width = sheet->box_width;
     sheet->projection = (struct projection){
         scale * PIXELS_PER_POINT,
         PIXELS_PER_POINT * (0.5 * sheet->box_width - scale * 0.5 * (x.low + x.high)),
