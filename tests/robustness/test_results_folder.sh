@@ -115,7 +115,7 @@ for folder in snapshots pictures probes profiles; do
     done
     mv results/swapped/$folder results/moved-$folder && ln -s ../elsewhere results/swapped/$folder
     [ $folder != pictures ] || kill -TERM $runner # they are drawn at the end
-    (sleep 120 && kill -KILL $runner 2>/dev/null) &
+    (sleep 600 && kill -KILL $runner 2>/dev/null) &
     watch=$!
     wait $runner
     got=$?
