@@ -1,7 +1,7 @@
 /* The data of the viewer: positions with 16 bits in a box about the window, fields with 8 bits over
- * their range, each frame as its difference to the one before, positions as that to free flight where
- * this is less, in planes of bytes, deflated, as base64. viewer.js reads and draws them. A particle that a frame does not have is at 65535 on each
- * axis. */
+ * their range, each frame as its difference to the one before, positions as that to free flight
+ * where this is less, in planes of bytes, deflated, as base64. viewer.js reads and draws them. A
+ * particle that a frame does not have is at 65535 on each axis. */
 #include "page/view.h"
 
 #include <stdlib.h>
