@@ -2,6 +2,7 @@
  * tell where a mistake stands. */
 #include "document/document.h"
 
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -304,6 +305,33 @@ static bool becomes_map(struct node *node, const char *rest)
     return true;
 }
 
+static bool is_name(const struct node *node)
+{
+    return node->kind == NODE_SCALAR && isalpha((unsigned char)node->text[0]) &&
+           !strchr(node->text, ' ');
+}
+
+/* A list of names on the way of a path that goes on with a name becomes a map of these names
+ * (`pictures: [speed]` before `--set output.pictures.speed.log=yes`). */
+static bool list_becomes_map(struct node *node, const char *rest)
+{
+    bool names = isalpha((unsigned char)rest[0]);
+    for (int i = 0; i < node->count; i++)
+        names = names && is_name(node->child[i]);
+    if (!names)
+        return false;
+    for (int i = 0; i < node->count; i++) {
+        struct node *item = node->child[i];
+        free(item->key);
+        item->key = item->text;
+        item->key_place = item->place;
+        item->text = NULL;
+        item->kind = NODE_MAP;
+    }
+    node->kind = NODE_MAP;
+    return true;
+}
+
 /* Puts *VALUE (taken) at PATH. */
 static struct error *set_value(struct node *root, const char *path, struct node **value)
 {
@@ -329,7 +357,8 @@ static struct error *set_value(struct node *root, const char *path, struct node 
                 return place_error(place, "", "the path has an empty name");
             TRY(add_entry(node, path, rest, value, place));
         } else if (node->kind == NODE_LIST) {
-            return place_error(place, path, "the list has items 1 to %d", node->count);
+            if (!list_becomes_map(node, rest))
+                return place_error(place, path, "the list has items 1 to %d", node->count);
         } else if (!becomes_map(node, rest)) {
             return place_error(place, path, "\"%s\" is a value without keys", node->text);
         }

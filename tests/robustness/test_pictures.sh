@@ -47,6 +47,10 @@ for name in $names; do cmp "one/pictures/$name" "before/$name" || fail "$name fr
 "$BOLIDE" picture one speed both --at 1us --set pictures.both.field='[pressure, speed]' \
     --set pictures.speed.log=yes --set pictures.speed.range.low=1m/s >other.log 2>&1 || fail "others: $(cat other.log)"
 [ -s one/pictures/speed-000001.png ] && [ -s one/pictures/both-000001.png ] || fail "others: $(ls one/pictures)"
+"$BOLIDE" run shield.yaml --threads 1 --set 'output.pictures=[density, speed]' \
+    --set output.pictures.speed.log=yes --output listed >listed.log 2>&1 || fail "a list: $(cat listed.log)"
+"$BOLIDE" picture listed pressure speed --at last --set pictures.speed.range.low=1m/s >listed.log 2>&1 ||
+    fail "a list: $(cat listed.log)"
 "$BOLIDE" picture one --set pictures.body.view=sideways >wrong.log 2>&1
 [ $? = 2 ] && grep -q 'unknown.*"sideways"\|"sideways"' wrong.log || fail "a wrong view: $(cat wrong.log)"
 "$BOLIDE" picture one body --at 1m >wrong.log 2>&1
