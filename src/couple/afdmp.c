@@ -209,6 +209,6 @@ const struct solver_class afdmp_class = {.size = sizeof(struct afdmp),
                                          .destroy = afdmp_destroy,
                                          .bytes = mpm_bytes,
                                          .count = afdmp_count,
-                                         .step = mpm_step_with_fluid,
+                                         .step = mpm_step_beside_gas,
                                          .coarsen = mpm_coarsen,
                                          .judge = afdmp_judge};

@@ -232,5 +232,5 @@ const struct solver_class cfdmp_class = {
     .bytes = mpm_bytes,
     .count = cfdmp_count,
     .judge = cfdmp_judge,
-    .step = mpm_step_with_fluid,
+    .step = mpm_step_beside_gas,
     .coarsen = mpm_coarsen};

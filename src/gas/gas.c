@@ -414,12 +414,12 @@ static void gas_count(const void *parameters, const struct simulation_case *inpu
     counted->box = domain_bounds(input);
 }
 
-static double gas_step(const void *parameters, int dimension, const struct material *material,
-                       const struct point *point, double diameter)
+static double gas_step(const void *parameters, const struct simulation_case *input,
+                       const struct material *material, const struct point *point, double diameter)
 {
     const struct gas_parameters *of = parameters;
     struct point at = *point;
-    (void)dimension;
+    (void)input;
     return courant_of(of) * diameter / any_material_evaluate(material, &at).sound_long;
 }
 

@@ -90,10 +90,10 @@ struct solver_class {
     /* Fills *counted from a case that may be wrong; NULL where all bodies become particles. */
     void (*count)(const void *parameters, const struct simulation_case *input,
                   struct counted *counted);
-    /* The step that a particle of DIAMETER allows in state POINT at the start, for `bolide
+    /* The step that a particle of DIAMETER allows in state POINT at the start of INPUT, for `bolide
      * check`. */
-    double (*step)(const void *parameters, int dimension, const struct material *material,
-                   const struct point *point, double diameter);
+    double (*step)(const void *parameters, const struct simulation_case *input,
+                   const struct material *material, const struct point *point, double diameter);
     /* Multiplies what of PARAMETERS is a length of cells or particles by FACTOR, for a run with a
      * coarser resolution; NULL where nothing is. */
     void (*coarsen)(void *parameters, double factor);

@@ -195,27 +195,32 @@ double mpm_bytes(const void *parameters, int dimension)
            numbers * sizeof(double) / particles;
 }
 
-/* The step of a particle in a case with a FLUID, or without. */
-static double step_of(const struct mpm_parameters *of, bool fluid, const struct material *material,
-                      const struct point *point, double diameter)
+static double step_of(const struct mpm_parameters *of, double courant,
+                      const struct material *material, const struct point *point, double diameter)
 {
     struct point at = *point;
     const double edge = isnan(of->cell) ? 2.0 * diameter : of->cell;
-    return mpm_courant(of, fluid) * edge / any_material_evaluate(material, &at).sound_long;
+    return courant * edge / any_material_evaluate(material, &at).sound_long;
 }
 
-static double mpm_step(const void *parameters, int dimension, const struct material *material,
-                       const struct point *point, double diameter)
+/* One fluid among the materials sets the Courant number of all, as in mpm_settled. */
+static double mpm_step(const void *parameters, const struct simulation_case *input,
+                       const struct material *material, const struct point *point, double diameter)
 {
-    (void)dimension;
-    return step_of(parameters, !material_has_strength(material), material, point, diameter);
+    bool fluid = false;
+    for (int m = 0; m < input->materials.count; m++)
+        fluid |= !material_has_strength(case_material(input, m)->material);
+    return step_of(parameters, mpm_courant(parameters, fluid), material, point, diameter);
 }
 
-double mpm_step_with_fluid(const void *parameters, int dimension, const struct material *material,
-                           const struct point *point, double diameter)
+double mpm_step_beside_gas(const void *parameters, const struct simulation_case *input,
+                           const struct material *material, const struct point *point,
+                           double diameter)
 {
-    (void)dimension;
-    return step_of(parameters, true, material, point, diameter);
+    const bool fluid = !material_has_strength(material);
+    (void)input;
+    return step_of(parameters, mpm_courant_beside_gas(parameters, fluid), material, point,
+                   diameter);
 }
 
 void mpm_coarsen(void *parameters, double factor)

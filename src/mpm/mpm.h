@@ -35,8 +35,9 @@ extern const struct solver_class mpm_class;
 
 /* Those of the class, for couplings whose parameters begin with those of mpm. */
 double mpm_bytes(const void *parameters, int dimension);
-double mpm_step_with_fluid(const void *parameters, int dimension, const struct material *material,
-                           const struct point *point, double diameter);
+double mpm_step_beside_gas(const void *parameters, const struct simulation_case *input,
+                           const struct material *material, const struct point *point,
+                           double diameter);
 void mpm_coarsen(void *parameters, double factor);
 
 /* Why its total energy drifts, for couplings, too. */

@@ -161,6 +161,8 @@ void mpm_free_halo(struct mpm *mpm);
 
 /* `courant`, or its default, with a FLUID in the case or without. */
 double mpm_courant(const struct mpm_parameters *parameters, bool fluid);
+/* That of a material in a coupling with a gas: a FLUID, or not. */
+double mpm_courant_beside_gas(const struct mpm_parameters *parameters, bool fluid);
 
 /* What the case leaves to the method. */
 struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,

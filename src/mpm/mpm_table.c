@@ -100,6 +100,14 @@ double mpm_courant(const struct mpm_parameters *parameters, bool fluid)
     return smooth && parameters->transfer == MPM_FLIP && parameters->order == 1 ? 0.8 : 0.5;
 }
 
+double mpm_courant_beside_gas(const struct mpm_parameters *parameters, bool fluid)
+{
+    /* of solids: with 0.8 a plate under a blast bends 2 % less than with short steps */
+    static const double most = 0.5;
+    const double courant = mpm_courant(parameters, fluid);
+    return isnan(parameters->courant) ? minimum(courant, most) : courant;
+}
+
 struct mpm_parameters mpm_settled(const struct mpm_parameters *parameters,
                                   const struct simulation *simulation)
 {

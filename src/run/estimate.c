@@ -21,8 +21,7 @@ static void add_body(const struct simulation_case *input, int index, struct esti
     struct response response = any_material_evaluate(material, &point);
     of->sound_long = response.sound_long;
     of->sound_shear = response.sound_shear;
-    double step = class->step(input->solver.value, (int)input->dimension, material, &point,
-                              of->summary.diameter);
+    double step = class->step(input->solver.value, input, material, &point, of->summary.diameter);
     of->step = step;
     if (index == 0 || step < estimate->step) {
         estimate->step = step;

@@ -262,9 +262,10 @@ static double sph_bytes(const void *parameters, int dimension)
     return bytes + (double)(numbers * sizeof(double)) + lists;
 }
 
-static double sph_step(const void *parameters, int dimension, const struct material *material,
-                       const struct point *point, double diameter)
+static double sph_step(const void *parameters, const struct simulation_case *input,
+                       const struct material *material, const struct point *point, double diameter)
 {
+    const int dimension = (int)input->dimension;
     const struct sph_parameters all = settled(parameters, dimension);
     const struct sph_scheme *scheme = all.method.choice->thing;
     struct point at = *point;

@@ -103,6 +103,27 @@ static void two_walls_bound_the_mean_density_of_their_axis(void **state)
     case_free(input);
 }
 
+/* A gas beside a metal sets the Courant number of the metal with MPM. */
+static void a_fluid_shortens_the_steps_of_solids_with_material_points(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "format: 1\ndimension: 2\nresolution: 1 mm\nsolver: mpm\nrun: {until: 1 us}\n"
+        "materials:\n  metal: {library: aluminium}\n"
+        "  gas: {eos: {ideal-gas: {density: 1 kg/m^3, gamma: 1.4}}}\n"
+        "bodies:\n  block: {material: metal, box: {from: [0 mm, 0 mm], to: [8 mm, 8 mm]}}\n";
+    static const char gas[] =
+        "  air: {material: gas, pressure: 1 bar, box: {from: [8 mm, 0 mm], to: [16 mm, 8 mm]}}\n";
+    struct simulation_case *input;
+    struct estimate mixed;
+    assert_success(read_text(text, gas, &input));
+    assert_success(estimate_run(input, &mixed));
+    assert_true(mixed.step_body == 0);
+    assert_about(mixed.step * mixed.body[0].sound_long, 0.2 * 2e-3);
+    estimate_free(&mixed);
+    case_free(input);
+}
+
 static void assert_refused(const char *shape, const char *message)
 {
     static const char head[] = "format: 1\n"
@@ -456,6 +477,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_mixture_has_a_mean_density_and_a_mass_of_each_material),
         cmocka_unit_test(two_walls_bound_the_mean_density_of_their_axis),
+        cmocka_unit_test(a_fluid_shortens_the_steps_of_solids_with_material_points),
         cmocka_unit_test(estimated_bytes_match_allocated_ones),
         cmocka_unit_test(a_shape_or_lattice_that_cannot_be_is_told_in_its_place),
         cmocka_unit_test(a_body_that_is_cut_unless_in_half_is_a_warning),

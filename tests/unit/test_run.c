@@ -116,10 +116,11 @@ static double flight_bytes(const void *parameters, int dimension)
     return 100.0 * dimension;
 }
 
-static double flight_step(const void *parameters, int dimension, const struct material *material,
-                          const struct point *point, double diameter)
+static double flight_step(const void *parameters, const struct simulation_case *input,
+                          const struct material *material, const struct point *point,
+                          double diameter)
 {
-    (void)dimension;
+    (void)input;
     (void)material;
     (void)point;
     (void)diameter;

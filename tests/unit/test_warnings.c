@@ -143,11 +143,12 @@ static double nonsense_bytes(const void *parameters, int dimension)
     return 100.0 * dimension;
 }
 
-static double nonsense_step(const void *parameters, int dimension, const struct material *material,
-                            const struct point *point, double diameter)
+static double nonsense_step(const void *parameters, const struct simulation_case *input,
+                            const struct material *material, const struct point *point,
+                            double diameter)
 {
     (void)parameters;
-    (void)dimension;
+    (void)input;
     (void)material;
     (void)point;
     (void)diameter;
