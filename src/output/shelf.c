@@ -47,7 +47,8 @@ struct error *shelf_open(const char *folder, struct shelf *shelf)
             free(name);
     }
     shelf->count = kept;
-    qsort(shelf->names, (size_t)kept, sizeof *shelf->names, by_number);
+    if (kept > 1)
+        qsort(shelf->names, (size_t)kept, sizeof *shelf->names, by_number);
     for (int i = 0; i < kept; i++)
         if (is_frame(shelf->names[i]))
             shelf->begin[shelf->frames++] = i;

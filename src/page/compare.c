@@ -255,7 +255,7 @@ static struct error *put_plot(struct comparison *c, const char *title, const cha
         return out_of_memory_for("a comparison");
     for (int s = 0; s < lines; s++) {
         const struct curve *from = s < runs ? &curve[s] : measured[s - runs];
-        if (from)
+        if (from && from->count)
             memcpy(numbers + kept, from->time, (size_t)from->count * sizeof *numbers);
         kept += from ? from->count : 0;
     }

@@ -113,7 +113,7 @@ static struct error *collect_ids(struct viewer *v)
         const struct frame_group *group = shown_of(&frame);
         const bool done =
             memory_reserve((void **)&v->id, &room, count + group->count + 1, count, sizeof *v->id);
-        if (done)
+        if (done && group->count)
             memcpy(v->id + count, group->id, (size_t)group->count * sizeof *v->id);
         count += done ? group->count : 0;
         v->time[i] = frame.time;
