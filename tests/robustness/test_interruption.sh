@@ -19,7 +19,7 @@ same() {
         diff -rq "$1/probes" "$2/probes" && diff -rq "$1/profiles" "$2/profiles"
 }
 
-rm -rf whole killed stopped full changed gone
+rm -rf whole killed stopped full changed gone damaged
 "$BOLIDE" run "$case" "${settings[@]}" --output whole >whole.log 2>&1 || fail "the whole run: $(cat whole.log)"
 
 # Killed at once when its first checkpoint is there.
