@@ -113,7 +113,10 @@ for folder in snapshots pictures probes profiles; do
     while [ ! -s results/swapped/snapshots/000002.vtkhdf ] && kill -0 $runner 2>/dev/null; do
         sleep 0.02
     done
+    kill -STOP $runner # else it may make the folder anew in between
+    rm -rf results/moved-$folder
     mv results/swapped/$folder results/moved-$folder && ln -s ../elsewhere results/swapped/$folder
+    kill -CONT $runner
     [ $folder != pictures ] || kill -TERM $runner # they are drawn at the end
     (sleep 600 && kill -KILL $runner 2>/dev/null) &
     watch=$!
