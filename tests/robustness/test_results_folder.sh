@@ -118,7 +118,7 @@ for folder in snapshots pictures probes profiles; do
     mv results/swapped/$folder results/moved-$folder && ln -s ../elsewhere results/swapped/$folder
     kill -CONT $runner
     [ $folder != pictures ] || kill -TERM $runner # they are drawn at the end
-    (sleep 600 && kill -KILL $runner 2>/dev/null) &
+    (sleep 600 && kill -KILL $runner) >/dev/null 2>&1 & # holds no output open
     watch=$!
     wait $runner
     got=$?
