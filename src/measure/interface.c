@@ -1,7 +1,7 @@
 /* interface: where two bodies meet on an axis, such as the floor of a hole and the nose of the rod
- * in it. Particles of both mix there, so that the outermost of either says little: the interface is
- * the plane beyond which one has the volume that the other has on this side, within a radius of the
- * axis. Each particle spreads its volume evenly over its diameter. */
+ * in it. Particles of both mix there, so the outermost of either says little: the interface is the
+ * plane with equal volumes of the two bodies on the wrong side of it, within a radius of the axis.
+ * Each particle spreads its volume evenly over its diameter. */
 #include "measure/broken_axis.h"
 
 #include <stdlib.h>

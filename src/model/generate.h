@@ -32,6 +32,10 @@ bool walls_on_both_sides(const struct simulation_case *input, int axis);
 struct bounds body_bounds(const struct simulation_case *input, int body);
 struct bounds place_bounds(const struct place *place, int body);
 
+/* The middle of these bounds, and how fast BODY moves there at the start. */
+struct vec3 body_middle(const struct simulation_case *input, int body);
+struct vec3 body_velocity(const struct simulation_case *input, int body);
+
 struct lattice body_lattice(const struct simulation_case *input, int body);
 struct lattice place_lattice(const struct place *place, int body);
 

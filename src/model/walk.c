@@ -59,6 +59,22 @@ struct bounds body_bounds(const struct simulation_case *input, int body)
     return place_bounds(&whole, body);
 }
 
+struct vec3 body_middle(const struct simulation_case *input, int body)
+{
+    const struct bounds bounds = body_bounds(input, body);
+    return vec3_scale(0.5, vec3_add(bounds.low, bounds.high));
+}
+
+struct vec3 body_velocity(const struct simulation_case *input, int body)
+{
+    const struct field_list *given = &case_body(input, body)->velocity;
+    const struct vec3 middle = body_middle(input, body);
+    double velocity[3] = {0.0, 0.0, 0.0};
+    for (int axis = 0; axis < given->count && axis < 3; axis++)
+        velocity[axis] = field_at(&given->at[axis], middle, 0.0);
+    return vec3_make(velocity[0], velocity[1], velocity[2]);
+}
+
 struct lattice body_lattice(const struct simulation_case *input, int body)
 {
     const struct place whole = place_whole(input);

@@ -39,7 +39,7 @@ enum { QUANTITY_TEXT = 160 };
 const char *quantity_text(double value, const char *unit, char *buffer);
 void page_quantity(FILE *file, double value, const char *unit);
 
-/* TEXT as JSON that may stand in a script. */
+/* TEXT as a JSON string for a script. */
 void page_json_text(FILE *file, const char *text);
 
 /* SIZE bytes as base64. */

@@ -71,18 +71,6 @@ static void find_mean_density(const struct simulation_case *input, struct estima
     estimate->mean_density = estimate->mass / volume;
 }
 
-/* Where the middle of BODY is, and how fast it moves there. */
-static void find_motion(const struct simulation_case *input, int body, struct body_estimate *of)
-{
-    const struct field_list *given = &case_body(input, body)->velocity;
-    const struct bounds bounds = body_bounds(input, body);
-    double velocity[3] = {0.0, 0.0, 0.0};
-    of->middle = vec3_scale(0.5, vec3_add(bounds.low, bounds.high));
-    for (int axis = 0; axis < given->count && axis < 3; axis++)
-        velocity[axis] = field_at(&given->at[axis], of->middle, 0.0);
-    of->velocity = vec3_make(velocity[0], velocity[1], velocity[2]);
-}
-
 /* How fast BODY runs into a wall, m/s. */
 static double speed_into_wall(const struct simulation_case *input, struct vec3 velocity)
 {
@@ -137,7 +125,8 @@ static struct error *estimate_with(const struct simulation_case *input, struct e
     error = error_join(error, found);
     for (int i = 0; i < bodies && !error; i++) {
         estimate->body[i].summary = summary[i];
-        find_motion(input, i, &estimate->body[i]);
+        estimate->body[i].middle = body_middle(input, i);
+        estimate->body[i].velocity = body_velocity(input, i);
         add_body(input, i, estimate);
     }
     free(summary);

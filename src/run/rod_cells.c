@@ -34,18 +34,15 @@ static double half_width(const struct simulation_case *input, const struct bound
 /* Whether BODY is slender along the axis along which it flies. */
 static bool rod_of(const struct simulation_case *input, int body, struct rod *rod)
 {
-    const struct field_list *velocity = &case_body(input, body)->velocity;
     const struct bounds bounds = body_bounds(input, body);
     const struct vec3 extent = vec3_sub(bounds.high, bounds.low),
-                      middle = vec3_scale(0.5, vec3_add(bounds.low, bounds.high)),
+                      velocity = body_velocity(input, body),
                       spacing = body_lattice(input, body).spacing;
     double radius = INFINITY;
     *rod = (struct rod){0};
-    for (int axis = 0; axis < velocity->count && axis < 3; axis++) {
-        const double speed = fabs(field_at(&velocity->at[axis], middle, 0.0));
-        if (speed > rod->speed)
-            *rod = (struct rod){.axis = axis, .speed = speed};
-    }
+    for (int axis = 0; axis < input->dimension; axis++)
+        if (fabs(vec3_at(velocity, axis)) > rod->speed)
+            *rod = (struct rod){.axis = axis, .speed = fabs(vec3_at(velocity, axis))};
     for (int axis = 0; axis < input->dimension; axis++) {
         const double half = half_width(input, &bounds, axis);
         if (axis == rod->axis || half >= radius || walls_on_both_sides(input, axis))

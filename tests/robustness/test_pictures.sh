@@ -51,6 +51,8 @@ for name in $names; do cmp "one/pictures/$name" "before/$name" || fail "$name fr
     --set output.pictures.speed.log=yes --output listed >listed.log 2>&1 || fail "a list: $(cat listed.log)"
 "$BOLIDE" picture listed pressure speed --at last --set pictures.speed.range.low=1m/s >listed.log 2>&1 ||
     fail "a list: $(cat listed.log)"
+[ -s listed/pictures/density-000000.png ] && [ -s listed/pictures/pressure-000003.png ] ||
+    fail "pictures of a list: $(ls listed/pictures)"
 "$BOLIDE" picture one --set pictures.body.view=sideways >wrong.log 2>&1
 [ $? = 2 ] && grep -q 'unknown.*"sideways"\|"sideways"' wrong.log || fail "a wrong view: $(cat wrong.log)"
 "$BOLIDE" picture one body --at 1m >wrong.log 2>&1

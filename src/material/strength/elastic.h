@@ -102,7 +102,7 @@ BOLIDE_INLINE struct sym3 sym3_tensile(struct sym3 s)
     return sym3_add(s, sym3_between(s, first, middle, -scale));
 }
 
-/* The same of the components in the plane. Those across it become zero. */
+/* That of the components in the plane; those across it become zero. */
 BOLIDE_INLINE struct sym3 sym3_tensile_in_plane(struct sym3 s)
 {
     const double mean = 0.5 * (s.xx + s.yy), half = 0.5 * (s.xx - s.yy);
