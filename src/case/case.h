@@ -190,12 +190,25 @@ struct picture_input {
     struct picture_schlieren schlieren;
 };
 
+/* output.maps: NAME: {peak: pressure}, or {arrival: {field: pressure, above: 1 MPa}}, or impulse:
+ * what is kept of a field over the time. */
+enum { MAPS_MOST = 6, MAP_NAME = 40 };
+struct map_over {
+    char *field; /* NULL: not given */
+    struct quantity above;
+};
+struct map_input {
+    char *peak; /* NULL: not given */
+    struct map_over arrival, impulse;
+};
+
 /* output: {every, pictures: [pressure, ...], ...} */
 struct output_input {
     double every;              /* s, between snapshots; NAN: only the first and the last state */
     double history;            /* s, between rows of history.csv; NAN: a hundredth of the run */
     double checkpoint;         /* s of wall clock between checkpoints; 0: at the end only */
     struct named_map pictures; /* struct picture_input; drawn at every snapshot */
+    struct named_map maps;     /* struct map_input */
     bool snapshots;            /* write VTKHDF files */
     bool fragments;            /* write fragments.csv and the field `fragment` */
     double fragment_link;      /* up to which their particles are connected (measure/connected.h) */
@@ -443,6 +456,7 @@ CASE_ITEM(contact, contacts)
 CASE_ITEM(detonation, detonations)
 CASE_ITEM(probe, probes)
 CASE_ITEM(profile, profiles)
+CASE_ITEM(map, output.maps)
 CASE_ITEM(order, convergence.order)
 CASE_ITEM(fit, fits)
 CASE_ITEM(expected_warning, expected)

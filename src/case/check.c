@@ -428,6 +428,7 @@ struct error *case_check_meaning(struct simulation_case *input)
     checking.map = "output";
     case_check_interval(&checking, "every", input->output.every);
     case_check_interval(&checking, "history", input->output.history);
+    check_map(&checking, "output.maps", &input->output.maps, case_check_map);
     check_map(&checking, "probes", &input->probes, check_probe);
     check_map(&checking, "profiles", &input->profiles, check_profile);
     checking.map = "exact";

@@ -72,12 +72,17 @@ static void check_names(struct checking *checking)
         const char *key;
         const struct named_map *map;
         bool of_file;
-    } maps[] = {
-        {"materials", &input->materials, false},   {"bodies", &input->bodies, false},
-        {"boundaries", &input->boundaries, false}, {"loads", &input->loads, false},
-        {"contacts", &input->contacts, false},     {"detonations", &input->detonations, false},
-        {"probes", &input->probes, true},          {"profiles", &input->profiles, true},
-        {"checks", &input->checks, false},         {"expected_warnings", &input->expected, false}};
+    } maps[] = {{"materials", &input->materials, false},
+                {"bodies", &input->bodies, false},
+                {"boundaries", &input->boundaries, false},
+                {"loads", &input->loads, false},
+                {"contacts", &input->contacts, false},
+                {"detonations", &input->detonations, false},
+                {"probes", &input->probes, true},
+                {"profiles", &input->profiles, true},
+                {"output.maps", &input->output.maps, true},
+                {"checks", &input->checks, false},
+                {"expected_warnings", &input->expected, false}};
     for (size_t k = 0; k < COUNT_OF(maps); k++) {
         checking->map = maps[k].key;
         for (int i = 0; i < maps[k].map->count; i++) {

@@ -54,6 +54,7 @@ void case_check_study(struct checking *checking);
 /* Of what acts from outside (check_outside.c, boundary.c). */
 void case_check_domain(struct checking *checking);
 void case_check_start(struct checking *checking);
+void case_check_map(struct checking *checking, int index);
 void case_check_boundary(struct checking *checking, int index);
 void case_check_load(struct checking *checking, int index);
 /* What is driven may follow the time, all of it alike. */

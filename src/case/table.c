@@ -79,6 +79,10 @@ static const struct parameter output_table[] = {
               "pictures of every snapshot: a list of fields, or pictures by name. Default: the "
               "bodies, in 2-D and 3-D",
               .table = case_picture_table, .size = sizeof(struct picture_input), .listed = true),
+    PARAMETER(MAP, struct output_input, maps, OPTIONAL,
+              "what is kept of fields over the time, each as a field of its own for pictures, "
+              "probes and snapshots: peaks, arrivals, impulses",
+              .table = case_map_table, .size = sizeof(struct map_input)),
     PARAMETER(FLAG, struct output_input, snapshots, "yes",
               "whether snapshots are written as VTKHDF files"),
     PARAMETER(FLAG, struct output_input, fragments, "no",

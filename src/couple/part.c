@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "model/maps.h"
 
 void part_surround(struct mpm *mpm, struct mpm_outside *outside, const struct gas_cut *cut)
 {
@@ -127,6 +128,8 @@ void part_free(struct part *part, const struct solver_class *type)
 void part_show(struct simulation *simulation, const struct part *part)
 {
     const struct population_source *own = &part->simulation.population[0];
+    for (int k = 0; k < part->simulation.maps; k++)
+        maps_add(simulation, &part->simulation.map[k]);
     simulation_add_population(simulation, own->name, own->type, own->store);
 }
 

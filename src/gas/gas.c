@@ -12,6 +12,7 @@
 #include "material/any.h"
 #include "material/material.h"
 #include "model/bodies.h"
+#include "model/maps.h"
 
 static const struct field_row field_rows[] = {
     {.field = {"sound_long", "m/s", "longitudinal sound speed", NUMBER_DOUBLE, 1, FIELD_DERIVED}},
@@ -34,23 +35,9 @@ static const struct field_row field_rows[] = {
     {.field = {"open", NULL, "1, or 0 where an obstacle blocks the cell", NUMBER_DOUBLE, 1,
                FIELD_STATE | FIELD_FRACTION}},
     {.field = {"gamma", NULL, "pressure over energy per volume", NUMBER_DOUBLE, 1, FIELD_STATE}},
-    {.field = {"peak_overpressure", "Pa",
-               "largest overpressure over the `ambient` pressure of the solver until now",
-               NUMBER_DOUBLE, 1, FIELD_STATE}},
-    {.field = {"peak_impulse", "Pa*s", "largest impulse of the overpressure until now",
-               NUMBER_DOUBLE, 1, FIELD_STATE}},
-    {.field = {"impulse_now", NULL, "impulse of the overpressure", NUMBER_DOUBLE, 1, FIELD_STATE}},
     FIELD_ROWS_END,
 };
-enum {
-    FIELD_SECOND = 6,
-    FIELD_AFTERBURNT = 8,
-    FIELD_BURNT,
-    FIELD_OPEN,
-    FIELD_GAMMA,
-    FIELD_MAPS,
-    OWN_FIELDS = FIELD_MAPS + 3
-};
+enum { FIELD_SECOND = 6, FIELD_AFTERBURNT = 8, FIELD_BURNT, FIELD_OPEN, FIELD_GAMMA, OWN_FIELDS };
 
 void gas_lay_out(struct gas_layout *layout)
 {
@@ -72,8 +59,7 @@ static struct error *make_store(struct cell_blocks *cells, const struct gas_layo
                                  : k == FIELD_AFTERBURNT ? layout->afterburns
                                  : k == FIELD_BURNT      ? layout->lit
                                  : k == FIELD_OPEN       ? layout->blocked
-                                 : k == FIELD_GAMMA      ? layout->marked
-                                                         : layout->maps))
+                                                         : layout->marked))
             own[count++] = field_rows[k].field;
     return cell_blocks_create(cells, own, count);
 }
@@ -101,6 +87,23 @@ static void choose_scheme(struct gas *gas)
                                         .guarded = true};
 }
 
+/* Of the pressure over AMBIENT, where that is given. */
+static void add_maps_of_peaks(struct simulation *simulation, double ambient)
+{
+    const struct map peak = {.name = "peak_overpressure",
+                             .field = "pressure",
+                             .kind = MAP_PEAK,
+                             .above = ambient,
+                             .of_cells = true};
+    struct map impulse = peak;
+    impulse.name = "peak_impulse";
+    impulse.kind = MAP_IMPULSE;
+    if (isnan(ambient))
+        return;
+    maps_add(simulation, &peak);
+    maps_add(simulation, &impulse);
+}
+
 static struct error *gas_create(void *solver, struct simulation *simulation, const void *parameters)
 {
     struct gas *gas = solver;
@@ -125,7 +128,6 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     gas->afterburn = simulation->problem->material[gas->material[1]].afterburn;
     gas->layout.afterburns = gas->layout.two && gas->afterburn.energy > 0.0;
     gas->layout.explosive = gas->layout.two ? gas->layout.explosive : 0;
-    gas->layout.maps = !isnan(gas->parameters.ambient);
     if (gas->layout.marked)
         gas_count_heat(gas);
     gas_lay_out(&gas->layout);
@@ -149,6 +151,7 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     TRY(make_store(cells, &gas->layout));
     if (gas->second_order)
         simulation_add_event(simulation, gas_repetition);
+    add_maps_of_peaks(simulation, gas->parameters.ambient);
     simulation_add_population(simulation, "gas", &cell_population, cells);
     return NULL;
 }
@@ -175,11 +178,6 @@ void gas_bind(struct gas *gas, const struct cell_blocks *cells)
     if (gas->layout.marked)
         gas->u[gas->layout.gamma] = cell_blocks_field(cells, "gamma");
     gas->sound = cell_blocks_field(cells, "sound_long");
-    if (gas->layout.maps) {
-        gas->map.overpressure = cell_blocks_field(cells, "peak_overpressure");
-        gas->map.impulse = cell_blocks_field(cells, "peak_impulse");
-        gas->map.sum = cell_blocks_field(cells, "impulse_now");
-    }
 }
 
 struct gas_closure gas_closure_of(const struct gas *gas)
@@ -366,7 +364,6 @@ static struct error *gas_advance(void *solver, struct simulation *simulation, do
         TRY(gas_move_markers(gas, simulation, dt));
     TRY(gas_burn(gas, simulation, simulation->time + dt));
     struct error *error = gas_derive(gas, simulation, NULL);
-    gas_map(gas, simulation, dt);
     simulation_end_phase(simulation, PHASE_BLOCKS, "states");
     return error;
 }

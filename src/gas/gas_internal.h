@@ -70,10 +70,7 @@ struct gas {
     double *sound;
     double heat[2]; /* of the materials, where energies count from cold gas: see markers.h; J/kg */
     struct gas_markers *markers; /* of the interface of two materials; NULL: there are none */
-    struct {
-        double *overpressure, *impulse, *sum; /* see maps.c; NULL: there are none */
-    } map;
-    double fastest; /* |u_i| + c of all of this rank's cells, m/s */
+    double fastest;              /* |u_i| + c of all of this rank's cells, m/s */
     uint64_t fastest_id;
 };
 
@@ -83,9 +80,6 @@ struct gas_closure gas_closure_of(const struct gas *gas);
 /* Collective: derived fields of BLOCKS, a flag each, or with NULL of those that are awake; which of
  * them are still, and the fastest cell. */
 struct error *gas_derive(struct gas *gas, const struct simulation *simulation, const bool *blocks);
-
-/* Keeps the maps of a blast after a step of DT. */
-void gas_map(const struct gas *gas, const struct simulation *simulation, double dt);
 
 /* The materials of the bodies, the one of lower reference density first; the same twice where there
  * is one. */

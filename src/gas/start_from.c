@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "gas/gas_internal.h"
 #include "material/material.h"
+#include "model/maps.h"
 
 /* What a shell's cells have in common with ours, per volume. */
 enum { SHELL_FIRST, SHELL_SECOND, SHELL_ENERGY, SHELL_AFTERBURNT, SHELLS };
@@ -21,7 +22,9 @@ struct blast {
     struct gas gas;
     int cells, last; /* all of them; those that the blast has reached */
     double *number[SHELLS], *speed, *fraction;
-    double low, edge; /* radius of the first cell's low face, width of a cell */
+    struct map_fields map[MAPS_MAX]; /* the cells' own; NULL: none */
+    int32_t *cell;                   /* of each shell */
+    double low, edge;                /* radius of the first cell's low face, width of a cell */
     int bins, cells_a_bin;
     double *factor[SHELLS]; /* of each bin */
 };
@@ -71,6 +74,7 @@ static struct error *compute(const struct simulation *simulation, struct blast *
     struct simulation *other = &blast->simulation;
     TRY(gas_class.fill(&blast->gas, other));
     TRY(gas_class.start(&blast->gas, other));
+    maps_update(other, 0.0);
     while (other->time < until) {
         struct limit limit = limit_of_nothing();
         TRY(gas_class.prepare(&blast->gas, other, &limit));
@@ -78,13 +82,15 @@ static struct error *compute(const struct simulation *simulation, struct blast *
         TRY(gas_class.advance(&blast->gas, other, dt));
         other->time = dt < left ? other->time + dt : until;
         other->step++;
+        maps_update(other, dt);
     }
     return NULL;
 }
 
-/* Makes the solver of the other case, whose mistakes name it. */
-static struct error *open_blast(struct blast *blast, const struct start_input *start)
+/* Makes the solver of the other case, whose mistakes name it. It keeps the maps of this one. */
+static struct error *open_blast(struct blast *blast, const struct simulation *simulation)
 {
+    const struct start_input *start = &simulation->problem->input->start;
     blast->input = start->input;
     blast->ranks = ranks_alone();
     const void *parameters = start->input->solver.value;
@@ -94,8 +100,11 @@ static struct error *open_blast(struct blast *blast, const struct start_input *s
         error = findings_refusal(&judgement.findings);
         findings_free(&judgement.findings);
     }
-    if (!error)
+    if (!error) {
+        blast->simulation.maps = simulation->maps;
+        memcpy(blast->simulation.map, simulation->map, sizeof simulation->map);
         error = gas_class.create(&blast->gas, &blast->simulation, parameters);
+    }
     return error_context(error, "start.from: %s", start->from);
 }
 
@@ -109,6 +118,7 @@ static void close_blast(struct blast *blast)
     }
     free(blast->speed);
     free(blast->fraction);
+    free(blast->cell);
     free(blast);
 }
 
@@ -126,13 +136,15 @@ static struct error *take(struct blast *blast)
         blast->number[n] = memory_allocate((size_t)count * sizeof(double));
     blast->speed = memory_allocate((size_t)count * sizeof(double));
     blast->fraction = memory_allocate((size_t)count * sizeof(double));
+    blast->cell = memory_allocate((size_t)count * sizeof *blast->cell);
     for (int n = 0; n < SHELLS; n++)
-        if (!blast->number[n] || !blast->speed || !blast->fraction)
+        if (!blast->number[n] || !blast->speed || !blast->fraction || !blast->cell)
             return out_of_memory_for("a start");
     for (int32_t i = 0; i < count; i++) {
         const int k = (int)((cells->position[i][0] - blast->low) / blast->edge);
         const double density = gas->u[GAS_DENSITY][i],
                      second = gas->layout.two ? gas->u[GAS_SECOND][i] : 0.0;
+        blast->cell[k] = i;
         blast->number[SHELL_FIRST][k] = density - second;
         blast->number[SHELL_SECOND][k] = second;
         blast->number[SHELL_ENERGY][k] = gas->u[GAS_ENERGY][i];
@@ -334,6 +346,34 @@ static struct error *fill_cell(const struct filling *f, const struct blast *blas
     return NULL;
 }
 
+/* What cells within the blast have of their maps is what the other case has kept at their radius,
+ * but of components, which point along the radius there. Arrivals count from the start here. */
+static void fill_maps(const struct filling *f, const struct blast *blast)
+{
+    const struct simulation *here = f->simulation, *there = &blast->simulation;
+    const struct population cells = simulation_population(here),
+                            shells = simulation_population(there);
+    for (int k = 0; k < here->maps; k++) {
+        const struct map *map = &here->map[k];
+        struct map_fields to, from;
+        if (strchr(map->field, '.') || !maps_find(map, &cells, &to) ||
+            !maps_find(map, &shells, &from))
+            continue;
+        for (int32_t i = 0; i < cells.count; i++) {
+            double radius = 0.0;
+            for (int axis = 0; axis < cells.dimension; axis++)
+                radius += square(cells.position[i][axis] - f->center[axis]);
+            const int shell = shell_at(blast, sqrt(radius));
+            if (shell < 0)
+                continue;
+            to.value[i] = from.value[blast->cell[shell]];
+            to.memory[i] = from.memory[blast->cell[shell]];
+            if (map->kind == MAP_ARRIVAL && to.memory[i] != 0.0)
+                to.memory[i] -= there->time;
+        }
+    }
+}
+
 /* The materials of both cases, which must be alike. */
 static struct error *check_materials(const struct simulation *simulation, const struct gas *gas,
                                      const struct blast *blast)
@@ -371,6 +411,7 @@ static struct error *transfer(struct filling *f, struct blast *blast)
     find_factors(f, blast);
     for (int32_t i = 0; i < cells->count && !error; i++)
         error = fill_cell(f, blast, i);
+    fill_maps(f, blast);
     return error;
 }
 
@@ -401,7 +442,7 @@ struct error *gas_check_source(const struct gas *gas, const struct simulation *s
     struct blast *blast = memory_allocate(sizeof *blast);
     if (!blast)
         return out_of_memory_for("a start");
-    struct error *error = open_blast(blast, start);
+    struct error *error = open_blast(blast, simulation);
     if (!error)
         error = check_materials(simulation, gas, blast);
     close_blast(blast);
@@ -420,7 +461,7 @@ struct error *gas_start_from(struct gas *gas, struct simulation *simulation)
     struct blast *blast = memory_allocate(sizeof *blast);
     if (!blast)
         return out_of_memory_for("a start");
-    struct error *error = open_blast(blast, start);
+    struct error *error = open_blast(blast, simulation);
     if (!error)
         error = error_context(compute(simulation, blast), "start.from: %s", start->from);
     if (!error)

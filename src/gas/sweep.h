@@ -42,7 +42,6 @@ struct gas_layout {
     bool lit;               /* one is an explosive that is lit */
     bool blocked;           /* some cells are */
     bool marked;            /* markers divide two materials */
-    bool maps;              /* of a blast are kept, see maps.c */
     int explosive;          /* which of the materials is lit */
     int written;            /* fields that sweeps write */
     int burnt, open, gamma; /* where these fields are, -1: nowhere */

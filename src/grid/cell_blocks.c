@@ -56,11 +56,17 @@ struct error *cell_blocks_create(struct cell_blocks *cells, const struct field_d
                                  int count)
 {
     const int core = (int)COUNT_OF(core_fields);
-    assert(core + count <= CELL_BLOCK_FIELDS);
-    for (int k = 0; k < core + count; k++)
-        cells->field[k].declaration = k < core ? core_fields[k] : more[k - core];
-    cells->fields = core + count;
+    cells->fields = 0;
+    cell_blocks_declare(cells, core_fields, core);
+    cell_blocks_declare(cells, more, count);
     return allocate(cells);
+}
+
+void cell_blocks_declare(struct cell_blocks *cells, const struct field_declaration *more, int count)
+{
+    assert(cells->fields + count <= CELL_BLOCK_FIELDS && cells->blocks == 0);
+    for (int k = 0; k < count; k++)
+        cells->field[cells->fields++].declaration = more[k];
 }
 
 void cell_blocks_destroy(struct cell_blocks *cells)

@@ -12,7 +12,7 @@
 #include "grid/block_table.h"
 #include "parallel/partition.h"
 
-enum { CELL_BLOCK_FIELDS = 24 };
+enum { CELL_BLOCK_FIELDS = 40 };
 
 /* The cells corner .. corner + count - 1 of the global grid, whose first has index `first`. */
 struct cell_block {
@@ -70,6 +70,9 @@ BOLIDE_INLINE int32_t cell_stride(const struct cell_block *block, int axis)
  * edge, domain, ranks, partition and threads. */
 struct error *cell_blocks_create(struct cell_blocks *cells, const struct field_declaration *more,
                                  int count);
+/* Adds COUNT fields to a store without blocks. */
+void cell_blocks_declare(struct cell_blocks *cells, const struct field_declaration *more,
+                         int count);
 void cell_blocks_destroy(struct cell_blocks *cells);
 
 /* Gives this rank its slice of the blocks of the domain, all zero but ids and places. ERROR_STATE:

@@ -26,6 +26,11 @@ static struct population members(const void *store)
                                .field = cells->field};
 }
 
+static void add(void *store, const struct field_declaration *more, int count)
+{
+    cell_blocks_declare(store, more, count);
+}
+
 static bool changed(const void *store)
 {
     (void)store;
@@ -48,6 +53,7 @@ static struct error *visit(void *store, struct visitor *visitor)
 static uint64_t hash(const void *store) { return cell_blocks_hash(store); }
 
 const struct population_class cell_population = {.members = members,
+                                                 .add = add,
                                                  .changed = changed,
                                                  .commit = commit,
                                                  .distribute = distribute,

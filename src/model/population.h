@@ -22,7 +22,7 @@ struct column {
                      * members begin .. end - 1 */
     void (*compute)(const struct population *population, int64_t begin, int64_t end, double *out);
 };
-enum { COLUMNS_MAX = 40 };
+enum { COLUMNS_MAX = 48 };
 
 struct population_source;
 
@@ -73,6 +73,8 @@ BOLIDE_INLINE const char *population_members(const struct population *population
 /* What the run loop does with a store of members, whatever they are. */
 struct population_class {
     struct population (*members)(const void *store);
+    /* Adds COUNT fields to a store without members. */
+    void (*add)(void *store, const struct field_declaration *more, int count);
     /* Whether members are to be taken in or out, which commit then does. */
     bool (*changed)(const void *store);
     struct error *(*commit)(void *store);

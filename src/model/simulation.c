@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "model/columns.h"
+#include "model/maps.h"
 
 struct error *simulation_create(const struct simulation_case *input, const struct ranks *ranks,
                                 int threads, struct simulation *simulation)
@@ -29,6 +30,8 @@ struct error *simulation_create_at(const struct place *place, const struct ranks
         problem && simulation->load ? problem_create(place, problem) : out_of_memory();
     if (error)
         simulation_destroy(simulation);
+    else
+        maps_take(simulation);
     return error;
 }
 
@@ -38,9 +41,16 @@ void simulation_add_population(struct simulation *simulation, const char *name,
     assert(simulation->populations < POPULATIONS_MAX);
     struct population_source *source = &simulation->population[simulation->populations++];
     *source = (struct population_source){.name = name, .type = type, .store = store};
-    const struct population population =
+    struct field_declaration maps[2 * MAPS_MAX];
+    struct population population =
         simulation_population_at(simulation, simulation->populations - 1);
-    source->columns = columns_make(&population, source->column);
+    source->columns = population.columns = columns_make(&population, source->column);
+    const int count = population.count ? 0 : maps_declare(simulation, &population, maps);
+    if (count) {
+        type->add(store, maps, count);
+        population = simulation_population_at(simulation, simulation->populations - 1);
+        source->columns = columns_make(&population, source->column);
+    }
 }
 
 struct population simulation_population_at(const struct simulation *simulation, int index)

@@ -39,6 +39,17 @@ struct event {
 };
 enum { EVENTS_MAX = 2 };
 
+/* What is kept of a field over the time; see maps.h. */
+enum map_kind { MAP_PEAK, MAP_ARRIVAL, MAP_IMPULSE };
+enum { MAPS_MAX = MAPS_MOST + 2 }; /* a solver may add some */
+struct map {
+    const char *name, *field;
+    enum map_kind kind;
+    double above;  /* what counts as none */
+    bool of_cells; /* particles have none */
+    char memory[MAP_NAME + 8], unit[48];
+};
+
 struct simulation {
     const struct problem *problem; /* owned; nothing changes it */
     const struct ranks *ranks;
@@ -47,6 +58,8 @@ struct simulation {
     int populations;            /* what it computes with */
     struct population_source population[POPULATIONS_MAX];
     struct population seen[POPULATIONS_MAX]; /* by simulation_see */
+    int maps;
+    struct map map[MAPS_MAX];
     struct ledger ledger;
     int loads; /* of the case */
     struct load_record *load;
@@ -68,7 +81,7 @@ struct error *simulation_create_at(const struct place *place, const struct ranks
 void simulation_destroy(struct simulation *simulation);
 
 /* Shows STORE, of TYPE, to all that watches the run, until the population is removed. NAME must
- * last as long. */
+ * last as long. A store without members gets the fields of the simulation's maps. */
 void simulation_add_population(struct simulation *simulation, const char *name,
                                const struct population_class *type, void *store);
 void simulation_remove_population(struct simulation *simulation, const void *store);

@@ -44,7 +44,6 @@ static void bind_core(struct particles *p)
 struct error *particles_create(int dimension, double cell, const struct field_declaration *more,
                                int count, struct particles *particles)
 {
-    assert(COUNT_OF(core_fields) + (size_t)count <= PARTICLES_FIELDS);
     static const struct ranks alone = {0, 1, false};
     static const int one = 1;
     *particles = (struct particles){.name = "particles",
@@ -54,9 +53,15 @@ struct error *particles_create(int dimension, double cell, const struct field_de
                                     .threads = &one};
     for (size_t k = 0; k < COUNT_OF(core_fields); k++)
         particles->field[particles->fields++].declaration = core_fields[k];
+    particles_declare(particles, more, count);
+    return NULL;
+}
+
+void particles_declare(struct particles *particles, const struct field_declaration *more, int count)
+{
+    assert(particles->fields + count <= PARTICLES_FIELDS && particles->capacity == 0);
     for (int k = 0; k < count; k++)
         particles->field[particles->fields++].declaration = more[k];
-    return NULL;
 }
 
 void particles_destroy(struct particles *particles)

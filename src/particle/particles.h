@@ -16,7 +16,7 @@
 #include "parallel/partition.h"
 #include "parallel/ranks.h"
 
-enum { PARTICLES_FIELDS = 48 };
+enum { PARTICLES_FIELDS = 64 };
 
 struct particles {
     const char *name; /* of its arrays in a checkpoint: "particles" unless told */
@@ -68,6 +68,10 @@ BOLIDE_INLINE void particle_keep_history(const struct particles *particles, int3
 struct error *particles_create(int dimension, double cell, const struct field_declaration *more,
                                int count, struct particles *particles);
 void particles_destroy(struct particles *particles);
+
+/* Adds COUNT fields to a store that never had a particle. */
+void particles_declare(struct particles *particles, const struct field_declaration *more,
+                       int count);
 
 /* The data of field NAME; the field must exist. The pointer holds until the next append or
  * commit. */

@@ -284,6 +284,8 @@ static void choose_colours(const struct picture_input *input, struct panel *pane
         range.high = range.low;
     panel->scale = input->log || is_map_of_peaks(panel->field) ? colour_scale_logarithmic(range)
                                                                : colour_scale_make(range);
+    if (!strcmp(panel->unit, "s")) /* a time has no middle */
+        colour_scale_choose(&panel->scale, false, false);
     if (input->palette >= 0)
         colour_scale_choose(&panel->scale, input->palette == PALETTE_DIVERGING,
                             input->palette == PALETTE_GREY);

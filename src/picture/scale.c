@@ -255,7 +255,7 @@ void colour_scale_choose(struct colour_scale *scale, bool diverging, bool grey)
 struct colour colour_of(const struct colour_scale *scale, double value)
 {
     if (isnan(value))
-        return colour_unpack(0x606060);
+        return colour_unpack(0xd9d9d9);
     const uint32_t *anchors = scale->diverging ? cool_warm : viridis;
     int last = (int)(scale->diverging ? COUNT_OF(cool_warm) : COUNT_OF(viridis)) - 1;
     double low = scale->range.low, high = scale->range.high;

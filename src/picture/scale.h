@@ -89,7 +89,7 @@ struct colour_scale colour_scale_logarithmic(struct range range);
 /* Other colours than those that suit the range: diverging, or from black to white, or viridis. */
 void colour_scale_choose(struct colour_scale *scale, bool diverging, bool grey);
 
-/* The colour of VALUE; beyond the range the end's colour, dark grey for NaN. */
+/* The colour of VALUE; beyond the range the end's colour, light grey for NaN. */
 struct colour colour_of(const struct colour_scale *scale, double value);
 
 /* Colours that colour-blind readers can tell apart, for series, bodies and materials. */

@@ -18,6 +18,7 @@
 #include "measure/connected.h"
 #include "measure/fragments.h"
 #include "model/generate.h"
+#include "model/maps.h"
 #include "run/fit_axes.h"
 #include "run/forecast.h"
 #include "run/pictures.h"
@@ -195,6 +196,7 @@ static struct error *make_particles(struct run *run)
         TRY(simulation_distribute(&run->simulation));
     start_threads(run);
     TRY(ranks_agree(&run->ranks, run->method->start(run->solver, &run->simulation)));
+    maps_update(&run->simulation, 0.0);
     if (!run->options->resume) {
         run->start = totals_at_start(run);
         warnings_start(run->warnings, &run->simulation);
@@ -234,6 +236,7 @@ static struct error *look_ahead(struct run *run)
     if (run->checks)
         error = error_join(error, fits_prepare(run->input, run->checks));
     error = error_join(error, check_fragments(run));
+    error = error_join(error, maps_check(&run->simulation));
     return error_join(error, check_pictures(run));
 }
 

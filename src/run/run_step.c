@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "base/clock.h"
+#include "model/maps.h"
 #include "run/run_internal.h"
 
 double step_towards(double limit, double time, double until)
@@ -138,6 +139,7 @@ struct error *run_take_step(struct run *run)
     TRY(run_agree(run, run->method->advance(run->solver, simulation, dt)));
     simulation->time = after;
     simulation->step++;
+    maps_update(simulation, dt);
     run->step = dt;
     run->sound = true;
     run->result->updates += run->particles;

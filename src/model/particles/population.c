@@ -29,6 +29,11 @@ struct population population_of_particles(const struct particles *particles)
 
 static struct population members(const void *store) { return population_of_particles(store); }
 
+static void add(void *store, const struct field_declaration *more, int count)
+{
+    particles_declare(store, more, count);
+}
+
 static bool changed(const void *store)
 {
     const struct particles *particles = store;
@@ -47,6 +52,7 @@ static struct error *visit(void *store, struct visitor *visitor)
 static uint64_t hash(const void *store) { return particles_hash(store); }
 
 const struct population_class particle_population = {.members = members,
+                                                     .add = add,
                                                      .changed = changed,
                                                      .commit = commit,
                                                      .distribute = distribute,
