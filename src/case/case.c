@@ -234,6 +234,17 @@ static void written_table(struct parameter *table)
 }
 
 /* The materials stand in full in what is written, so that the file needs no library. */
+/* Whether NAME may be a title: what is drawn from results in a folder of another name has the title
+ * of the run. */
+static bool is_plain(const char *name)
+{
+    enum { MOST = 60 };
+    static const char letters[] =
+        "-0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    const size_t length = strspn(name, letters);
+    return length > 0 && length < MOST && !name[length] && name[0] != '-';
+}
+
 struct error *case_write(const struct simulation_case *input, FILE *file)
 {
     struct simulation_case whole = *input;
@@ -245,6 +256,8 @@ struct error *case_write(const struct simulation_case *input, FILE *file)
     for (int i = 0; i < input->materials.count; i++)
         materials[i].library = NULL;
     whole.materials.items = materials;
+    if (!input->title && input->name && is_plain(input->name))
+        whole.title = input->name;
     struct parameter table[KEYS_MAX];
     written_table(table);
     struct error *error = document_write(file, table, &whole);

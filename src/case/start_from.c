@@ -12,7 +12,8 @@
 const struct parameter case_start_table[] = {
     PARAMETER(TEXT, struct start_input, from, OPTIONAL,
               "a case of one dimension, spherical or cylindrical, or the folder of one, from this "
-              "file's folder; it is computed before this run begins"),
+              "file's folder; it is computed before this run begins",
+              .is_path = true),
     PARAMETER(NUMBER, struct start_input, at, OPTIONAL,
               "time up to which that case is computed; default: its end", .unit = "s",
               .below = INFINITY),
@@ -112,7 +113,8 @@ struct error *case_read_start(struct simulation_case *input, const char *path,
     } else if (access(file, R_OK) == 0) {
         error = case_read(file, &plain, input->catalogue, &start->input);
     } else {
-        case_wrong(&checking, "from", "there is no case \"%s\"", start->from);
+        const char *slash = strrchr(start->from, '/');
+        case_wrong(&checking, "from", "there is no case \"%s\"", slash ? slash + 1 : start->from);
         error = checking.error;
     }
     free(chain);

@@ -23,7 +23,7 @@ struct cli_options {
     bool overwrite, resume, quick, thorough, all, convergence, curves, record, compare, pilot,
         force;
     const char *time, *at, *template_name;
-    const char *fields, *limit, *format, *rate; /* of view and film */
+    const char *fields, *limit, *format, *rate, *size; /* of view, film and picture */
     int64_t frames;
     const char *key, *from, *to, *check, *within; /* of a search */
     struct text_list settings, names, data;
@@ -80,6 +80,12 @@ bool print_curves(const struct material *material);
 /* detonations.c: after BEFORE, the detonation that follows from the constants of MATERIAL, its
  * states after BETWEEN; false where it is no explosive. */
 bool print_detonation(const char *before, const char *between, const struct material *material);
+
+/* command_picture.c: draws what OPTIONS want of the snapshots in the first of their names, into
+ * `into` of REQUEST; COUNT pictures. */
+struct pictures_request;
+struct error *draw_again(const struct cli_options *options, struct pictures_request *request,
+                         int64_t *count);
 
 /* many_runs.c */
 

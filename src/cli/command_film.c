@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "cli/cli.h"
 #include "picture/film.h"
+#include "run/pictures.h"
 
 /* "pressure-000012.png" is a frame of pressure. */
 static bool is_frame_of(const char *file, const char *name)
@@ -112,14 +113,15 @@ static struct error *make_film(const struct frames *frames, const struct cli_opt
     return error;
 }
 
-static struct error *film_of(const struct cli_options *options, const char *folder,
+/* The film of the frames of NAME in the folder PICTURES. */
+static struct error *film_of(const struct cli_options *options, const char *pictures,
                              const char *name)
 {
+    const char *folder = options->names.text[0];
     struct frames frames = {0};
-    char **names = NULL, *pictures = path_join(folder, "pictures");
+    char **names = NULL;
     int count = 0;
-    struct error *error =
-        pictures ? folder_names(pictures, ".png", &names, &count) : out_of_memory();
+    struct error *error = folder_names(pictures, ".png", &names, &count);
     frames.paths = calloc((size_t)count + 1, sizeof *frames.paths);
     for (int i = 0; i < count && !error && frames.paths; i++)
         if (is_frame_of(names[i], name)) {
@@ -132,17 +134,15 @@ static struct error *film_of(const struct cli_options *options, const char *fold
         error = make_film(&frames, options, folder, name);
     names_free(frames.paths, frames.count);
     names_free(names, count);
-    free(pictures);
     return error;
 }
 
 /* The picture of the first frame in the folder. */
-static struct error *first_name(const char *folder, char **name)
+static struct error *first_name(const char *pictures, char **name)
 {
-    char **names = NULL, *pictures = path_join(folder, "pictures");
+    char **names = NULL;
     int count = 0;
-    struct error *error =
-        pictures ? folder_names(pictures, ".png", &names, &count) : out_of_memory();
+    struct error *error = folder_names(pictures, ".png", &names, &count);
     *name = NULL;
     for (int i = 0; i < count && !error && !*name; i++) {
         const char *dash = strrchr(names[i], '-');
@@ -153,24 +153,65 @@ static struct error *first_name(const char *folder, char **name)
             free(part);
     }
     if (!error && !*name)
-        error = error_new(ERROR_INPUT, "%s: there are no pictures", folder);
+        error = error_new(ERROR_INPUT, "%s: there are no pictures", pictures);
     names_free(names, count);
+    return error;
+}
+
+/* The films of the frames in the folder PICTURES. */
+static struct error *make_films(const struct cli_options *options, const char *pictures)
+{
+    char *first = NULL;
+    struct error *error = NULL;
+    if (options->names.count == 1) {
+        error = first_name(pictures, &first);
+        if (!error)
+            error = film_of(options, pictures, first);
+    }
+    for (int i = 1; i < options->names.count && !error; i++)
+        error = film_of(options, pictures, options->names.text[i]);
+    free(first);
+    return error;
+}
+
+static void remove_frames(const char *pictures)
+{
+    char **names = NULL;
+    int count = 0;
+    error_free(folder_names(pictures, ".png", &names, &count));
+    for (int i = 0; i < count; i++) {
+        char *path = path_join(pictures, names[i]);
+        if (path)
+            unlink(path);
+        free(path);
+    }
+    names_free(names, count);
+    rmdir(pictures);
+}
+
+/* Frames of a size of their own are drawn for the film alone. */
+static struct error *make_sized(const struct cli_options *options)
+{
+    char *pictures = path_join(options->names.text[0], ".frames");
+    struct pictures_request request = {.into = pictures};
+    int64_t count;
+    struct error *error = pictures ? folder_make(pictures) : out_of_memory();
+    if (!error) {
+        error = draw_again(options, &request, &count);
+        if (!error)
+            error = make_films(options, pictures);
+        remove_frames(pictures);
+    }
     free(pictures);
     return error;
 }
 
 int command_film(const struct cli_options *options)
 {
-    const char *folder = options->names.text[0];
-    struct error *error = NULL;
-    char *first = NULL;
-    if (options->names.count == 1) {
-        error = first_name(folder, &first);
-        if (!error)
-            error = film_of(options, folder, first);
-    }
-    for (int i = 1; i < options->names.count && !error; i++)
-        error = film_of(options, folder, options->names.text[i]);
-    free(first);
+    char *pictures = path_join(options->names.text[0], "pictures");
+    struct error *error = !pictures       ? out_of_memory()
+                          : options->size ? make_sized(options)
+                                          : make_films(options, pictures);
+    free(pictures);
     return error ? report_error(error) : EXIT_OK;
 }

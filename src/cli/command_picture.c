@@ -81,30 +81,59 @@ static struct error *find_moment(const char *text, struct pictures_request *requ
     return NULL;
 }
 
+/* `--size`: 1280x720. */
+static struct error *find_size(const char *text, int size[2])
+{
+    enum { LEAST = 200, MOST = 10000 };
+    char *end = NULL;
+    if (!text)
+        return NULL;
+    const long width = strtol(text, &end, 10);
+    const long height = *end == 'x' ? strtol(end + 1, &end, 10) : 0;
+    if (*end || width < LEAST || width > MOST || height < LEAST || height > MOST)
+        return error_new(ERROR_INPUT,
+                         "--size: \"%s\" is no size of %d to %d pixels, such as 1280x720", text,
+                         LEAST, MOST);
+    size[0] = (int)width;
+    size[1] = (int)height;
+    return NULL;
+}
+
+struct error *draw_again(const struct cli_options *options, struct pictures_request *request,
+                         int64_t *count)
+{
+    struct simulation_case *input = NULL;
+    *count = 0;
+    request->folder = options->names.text[0];
+    request->ranks = options->ranks;
+    request->threads = (int)options->threads;
+    request->count = options->names.count - 1;
+    request->names = options->names.text + 1;
+    request->at = NAN;
+    struct error *error = find_size(options->size, request->size);
+    if (!error)
+        error = read_results(options, request->folder, &input);
+    if (!error && request->size[0] && input->dimension == 1)
+        error = error_new(ERROR_INPUT, "--size: pictures in 1-D have a size of their own");
+    if (!error)
+        error = find_moment(options->at, request);
+    request->input = input;
+    if (!error)
+        error = pictures_draw(request, count);
+    if (!error && !*count)
+        error = error_new(ERROR_INPUT, "%s: there are no snapshots to draw", request->folder);
+    case_free(input);
+    return error;
+}
+
 int command_picture(const struct cli_options *options)
 {
-    const char *folder = options->names.text[0];
-    struct simulation_case *input = NULL;
-    struct pictures_request request = {.folder = folder,
-                                       .ranks = options->ranks,
-                                       .threads = (int)options->threads,
-                                       .count = options->names.count - 1,
-                                       .names = options->names.text + 1,
-                                       .at = NAN,
-                                       .drawn = print_path};
-    int64_t count = 0;
-    struct error *error = read_results(options, folder, &input);
+    struct pictures_request request = {.drawn = print_path};
+    int64_t count;
+    char *pictures = path_join(options->names.text[0], "pictures");
+    struct error *error = pictures ? folder_make(pictures) : out_of_memory();
     if (!error)
-        error = find_moment(options->at, &request);
-    char *pictures = path_join(folder, "pictures");
-    request.input = input;
-    if (!error)
-        error = pictures ? folder_make(pictures) : out_of_memory();
-    if (!error)
-        error = pictures_draw(&request, &count);
-    if (!error && !count)
-        error = error_new(ERROR_INPUT, "%s: there are no snapshots to draw", folder);
+        error = draw_again(options, &request, &count);
     free(pictures);
-    case_free(input);
     return error ? report_error(error) : EXIT_OK;
 }

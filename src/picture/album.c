@@ -153,6 +153,12 @@ struct error *album_create(const struct simulation_case *input, int threads, str
     return NULL;
 }
 
+void album_set_size(struct album *album, const int size[2])
+{
+    album->size[0] = size[0];
+    album->size[1] = size[1];
+}
+
 struct error *album_create_plain(const struct simulation_case *input, const char *const *fields,
                                  int count, struct album **album)
 {

@@ -20,6 +20,9 @@ struct error *album_create_plain(const struct simulation_case *input, const char
                                  int count, struct album **album);
 void album_free(struct album *album);
 
+/* All pictures in 2-D and 3-D have this size in pixels. */
+void album_set_size(struct album *album, const int size[2]);
+
 int album_count(const struct album *album);
 const char *album_name(const struct album *album, int picture);
 

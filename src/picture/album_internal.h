@@ -32,6 +32,7 @@ struct album {
     const struct simulation_case *input;
     struct place place;
     int threads, dimension;
+    int size[2];    /* pixels; 0: as the page needs */
     bool gas_alone; /* no particles at the start */
     struct picture_input standard;
     int count;

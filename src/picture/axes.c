@@ -21,20 +21,20 @@ static const struct {
     [TEXT_TICK] = {11.0, 0.20, CAIRO_FONT_WEIGHT_NORMAL},
 };
 
-struct error *canvas_create(double width, double height, struct canvas *canvas)
+struct error *canvas_create(double width, double height, double density, struct canvas *canvas)
 {
     canvas->width = width;
     canvas->height = height;
-    canvas->surface =
-        cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)ceil(width * PIXELS_PER_POINT),
-                                   (int)ceil(height * PIXELS_PER_POINT));
+    canvas->density = density;
+    canvas->surface = cairo_image_surface_create(
+        CAIRO_FORMAT_RGB24, (int)ceil(width * density - 1e-6), (int)ceil(height * density - 1e-6));
     canvas->pen = cairo_create(canvas->surface);
     if (cairo_status(canvas->pen) != CAIRO_STATUS_SUCCESS)
         return error_new(ERROR_SYSTEM, "picture: %s",
                          cairo_status_to_string(cairo_status(canvas->pen)));
     cairo_set_source_rgb(canvas->pen, 1.0, 1.0, 1.0);
     cairo_paint(canvas->pen);
-    cairo_scale(canvas->pen, PIXELS_PER_POINT, PIXELS_PER_POINT);
+    cairo_scale(canvas->pen, density, density);
     return NULL;
 }
 

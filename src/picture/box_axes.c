@@ -16,8 +16,8 @@ struct edge {
 static void place_on_page(const struct box_axes *axes, const double at[3], double *x, double *y)
 {
     view_project(axes->view, axes->projection, at, x, y);
-    *x = axes->left + *x / PIXELS_PER_POINT;
-    *y = axes->top + *y / PIXELS_PER_POINT;
+    *x = axes->left + *x / axes->projection->density;
+    *y = axes->top + *y / axes->projection->density;
 }
 
 static struct edge edge_of(const struct box_axes *axes, int axis, int corner)

@@ -1,5 +1,5 @@
 /* What the pictures share: a canvas, text, axes and legends, drawn by Cairo. Lengths are points; a
- * point is PIXELS_PER_POINT pixels, y runs downwards. */
+ * point is PIXELS_PER_POINT pixels where no size is asked for; y runs downwards. */
 #ifndef BOLIDE_PICTURE_INTERNAL_H
 #define BOLIDE_PICTURE_INTERNAL_H
 
@@ -16,11 +16,11 @@ enum { PIXELS_PER_POINT = 2, LEGEND_ROW = 18, LABEL_TEXT = 128 };
 struct canvas {
     cairo_surface_t *surface;
     cairo_t *pen;
-    double width, height;
+    double width, height, density; /* points, pixels a point */
 };
 
 /* A white canvas; destroy it in every case, after failure too. */
-struct error *canvas_create(double width, double height, struct canvas *canvas);
+struct error *canvas_create(double width, double height, double density, struct canvas *canvas);
 void canvas_destroy(struct canvas *canvas);
 
 /* Writes the picture to PATH as PNG; OWN_FOLDER: in a folder of the run, which is no link. */

@@ -267,7 +267,7 @@ static struct error *draw_plot(const struct canvas *canvas, const struct plot *p
 struct error *picture_plot(const char *path, const struct plot *plot)
 {
     struct canvas canvas;
-    struct error *error = canvas_create(PLOT_WIDTH, PLOT_HEIGHT, &canvas);
+    struct error *error = canvas_create(PLOT_WIDTH, PLOT_HEIGHT, PIXELS_PER_POINT, &canvas);
     if (!error)
         error = draw_plot(&canvas, plot);
     if (!error)

@@ -54,6 +54,7 @@ struct raster {
  * (a perspective); the middle of the window, or the axis of the eye, is at (x, y). */
 struct projection {
     double scale, x, y;
+    double density; /* pixels a point */
 };
 
 /* The colours of values; of categories where SCALE is NULL. */

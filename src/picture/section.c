@@ -399,7 +399,7 @@ struct error *section_draw(const struct scene *scene, const struct view *view,
                         .width = raster->width,
                         .height = raster->height,
                         .threads = threads,
-                        .dot = (float)(view->dot * PIXELS_PER_POINT)};
+                        .dot = (float)(view->dot * projection->density)};
     struct error *error = allocate(&d);
     if (!error) {
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)

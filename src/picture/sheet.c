@@ -26,6 +26,7 @@ enum {
     BOX_MARGIN = 52,
     BOX_TOP = 10,
     SOLID_HEIGHT = 600,
+    SIZED_HEIGHT = 600, /* of a page whose pixels are given */
     LEGEND_MAX = 24,
     FRAGMENTS_NAMED = 5
 };
@@ -39,7 +40,9 @@ struct legend_words {
 
 /* Where everything is, in points. */
 struct sheet {
-    double width, height, head;
+    double width, height, head, density;                 /* pixels a point */
+    double left;                                         /* of the panels on a wider page */
+    double tallest;                                      /* what is drawn can be */
     double panel_width, box_left, box_width, box_height; /* box_left: in the panel */
     struct projection projection;                        /* of a raster of a panel, in pixels */
     struct axis x, y;                                    /* of a section, in the first panel */
@@ -78,16 +81,16 @@ static void lay_section(const struct picture *picture, struct sheet *sheet)
     if (scale * length_of(*up) < HEIGHT_MIN)
         scale = minimum(HEIGHT_MIN / length_of(*up),
                         (PAGE_WIDTH_MAX - LEFT - RIGHT) / length_of(*across));
-    if (scale * length_of(*up) > HEIGHT_MAX)
-        scale = HEIGHT_MAX / length_of(*up);
+    if (scale * length_of(*up) > sheet->tallest)
+        scale = sheet->tallest / length_of(*up);
     sheet->box_width = ceil(maximum(scale * length_of(*across), WIDTH_MIN) - 1e-6);
     sheet->box_height = ceil(maximum(scale * length_of(*up), HEIGHT_MIN) - 1e-6);
     sheet->panel_width = ceil(maximum(sheet->box_width + LEFT + RIGHT,
                                       picture->panels > 1 ? PAGE_WIDTH_MIN / 2 : PAGE_WIDTH_MIN));
     sheet->box_left = LEFT + floor(0.5 * (sheet->panel_width - LEFT - RIGHT - sheet->box_width));
     sheet->projection =
-        (struct projection){scale * PIXELS_PER_POINT, 0.5 * sheet->box_width * PIXELS_PER_POINT,
-                            0.5 * sheet->box_height * PIXELS_PER_POINT};
+        (struct projection){scale * sheet->density, 0.5 * sheet->box_width * sheet->density,
+                            0.5 * sheet->box_height * sheet->density, sheet->density};
     const double x = 0.5 * (across->low + across->high), y = 0.5 * (up->low + up->high);
     const double half = 0.5 * sheet->box_width / scale, tall = 0.5 * sheet->box_height / scale;
     sheet->x.range = (struct range){x - half, x + half};
@@ -114,36 +117,52 @@ static void lay_solid(const struct picture *picture, struct sheet *sheet)
     for (int k = 0; k < 8; k++) {
         double at[3], column, row;
         corner_of(view, k, at);
-        view_project(view, &(struct projection){1.0, 0.0, 0.0}, at, &column, &row);
+        view_project(view, &(struct projection){.scale = 1.0}, at, &column, &row);
         range_include(&x, column);
         range_include(&y, row);
     }
     const double room = sheet->panel_width - 2 * BOX_SIDE;
     double scale = room / length_of(x);
-    if (scale * length_of(y) > SOLID_HEIGHT)
-        scale = SOLID_HEIGHT / length_of(y);
+    if (scale * length_of(y) > sheet->tallest)
+        scale = sheet->tallest / length_of(y);
     sheet->box_left = 0.0;
     sheet->box_width = ceil(maximum(scale * length_of(x) + 2 * BOX_SIDE, PAGE_WIDTH_MIN));
     sheet->box_height = ceil(scale * length_of(y) + BOX_TOP + BOX_MARGIN);
     sheet->panel_width = sheet->box_width;
     sheet->projection = (struct projection){
-        scale * PIXELS_PER_POINT,
-        PIXELS_PER_POINT * (0.5 * sheet->box_width - scale * 0.5 * (x.low + x.high)),
-        PIXELS_PER_POINT * (BOX_TOP - scale * y.low)};
+        scale * sheet->density,
+        sheet->density * (0.5 * sheet->box_width - scale * 0.5 * (x.low + x.high)),
+        sheet->density * (BOX_TOP - scale * y.low), sheet->density};
 }
 
-static void lay_out(const struct picture *picture, double head, struct sheet *sheet)
+/* A page of the album's size; else as wide as usual and as tall as what is on it. */
+static void lay_out(const struct album *album, const struct picture *picture, double head,
+                    struct sheet *sheet)
 {
-    *sheet = (struct sheet){.head = head};
+    const bool solid = picture->view.perspective;
+    const double foot = (has_bar(picture) ? BAR_GAP + BAR_THICKNESS + AXIS_HEIGHT : 4.0) +
+                        (solid ? 0.0 : AXIS_HEIGHT);
+    const double density = album->size[1] ? (double)album->size[1] / SIZED_HEIGHT : 0.0;
+    *sheet = (struct sheet){.head = head, .density = density > 0.0 ? density : PIXELS_PER_POINT};
     sheet->panel_width = picture->panels > 1 ? PANEL_WIDTH : PAGE_WIDTH;
-    if (picture->view.perspective)
+    sheet->tallest = solid ? SOLID_HEIGHT : HEIGHT_MAX;
+    if (density > 0.0) {
+        sheet->panel_width = album->size[0] / density / picture->panels;
+        sheet->tallest =
+            maximum(SIZED_HEIGHT - head - foot - (solid ? BOX_TOP + BOX_MARGIN : 0.0), HEIGHT_MIN);
+    }
+    if (solid)
         lay_solid(picture, sheet);
     else
         lay_section(picture, sheet);
-    const double foot = has_bar(picture) ? BAR_GAP + BAR_THICKNESS + AXIS_HEIGHT : 4.0;
     sheet->width = picture->panels * sheet->panel_width;
-    sheet->height =
-        ceil(head + sheet->box_height + (picture->view.perspective ? 0.0 : AXIS_HEIGHT) + foot);
+    sheet->height = ceil(head + sheet->box_height + foot);
+    if (density > 0.0) {
+        const double width = album->size[0] / density;
+        sheet->left = maximum(floor(0.5 * (width - sheet->width)), 0.0);
+        sheet->width = width;
+        sheet->height = SIZED_HEIGHT;
+    }
 }
 
 /* How heavy and fast the heaviest fragments are. */
@@ -319,10 +338,12 @@ static void put_raster(const struct canvas *canvas, const struct raster *raster,
     cairo_surface_flush(canvas->surface);
     uint32_t *data = (uint32_t *)(void *)cairo_image_surface_get_data(canvas->surface);
     const int64_t stride = cairo_image_surface_get_stride(canvas->surface) / 4;
-    const int64_t column = (int64_t)(left * PIXELS_PER_POINT);
-    const int64_t row = (int64_t)(top * PIXELS_PER_POINT);
-    for (int64_t y = 0; y < raster->height; y++)
-        for (int64_t x = 0; x < raster->width; x++)
+    const int64_t column = (int64_t)(left * canvas->density);
+    const int64_t row = (int64_t)(top * canvas->density);
+    const int64_t width = cairo_image_surface_get_width(canvas->surface) - column,
+                  height = cairo_image_surface_get_height(canvas->surface) - row;
+    for (int64_t y = 0; y < raster->height && y < height; y++)
+        for (int64_t x = 0; x < raster->width && x < width; x++)
             if (raster->pixel[y * raster->width + x])
                 data[(row + y) * stride + column + x] = raster->pixel[y * raster->width + x];
     cairo_surface_mark_dirty(canvas->surface);
@@ -376,8 +397,8 @@ static struct error *draw_raster(const struct album *album, const struct picture
         .fragments = panel->fragments,
         .schlieren = panel->schlieren ? picture->input->schlieren.strength : 0.0,
         .steepest = panel->steepest};
-    *raster = (struct raster){.width = (int)(sheet->box_width * PIXELS_PER_POINT),
-                              .height = (int)(sheet->box_height * PIXELS_PER_POINT)};
+    *raster = (struct raster){.width = (int)(sheet->box_width * sheet->density),
+                              .height = (int)(sheet->box_height * sheet->density)};
     raster->pixel =
         memory_allocate((size_t)raster->width * (size_t)raster->height * sizeof(uint32_t));
     struct error *error = scene_take(album, picture, panel, frame, &scene, outside);
@@ -399,7 +420,7 @@ struct error *sheet_measure(const struct album *album, const struct picture *pic
     struct sheet sheet;
     struct raster raster;
     int64_t outside;
-    lay_out(picture, 60.0, &sheet);
+    lay_out(album, picture, 60.0, &sheet);
     struct error *error =
         picture->view.perspective
             ? error_new(ERROR_INPUT, "schlieren needs a section")
@@ -414,7 +435,7 @@ static struct error *draw_panel(const struct canvas *canvas, const struct album 
                                 const struct sheet *sheet, int64_t *outside)
 {
     const struct panel *panel = &picture->panel[k];
-    const double left = k * sheet->panel_width;
+    const double left = sheet->left + k * sheet->panel_width;
     struct raster raster;
     struct error *error = draw_raster(album, picture, panel, frame, sheet, &raster, outside, NULL);
     if (!error) {
@@ -441,7 +462,7 @@ static struct error *draw_panel(const struct canvas *canvas, const struct album 
 static struct error *measure_head(const struct legend_words *words, double width, double *head)
 {
     struct canvas probe;
-    struct error *error = canvas_create(1.0, 1.0, &probe);
+    struct error *error = canvas_create(1.0, 1.0, PIXELS_PER_POINT, &probe);
     *head = canvas_header(&probe, 0.0, "", "") + 4.0;
     if (!error)
         *head +=
@@ -461,11 +482,11 @@ struct error *sheet_draw(const struct album *album, const struct picture *pictur
     double head = 0.0;
     int64_t outside = 0;
     find_legend(album, picture, frame, &words);
-    lay_out(picture, head, &sheet);
+    lay_out(album, picture, head, &sheet);
     const double left = picture->view.perspective ? MARGIN : LEFT;
     TRY(measure_head(&words, sheet.width - left - MARGIN, &head));
-    lay_out(picture, head, &sheet);
-    struct error *error = canvas_create(sheet.width, sheet.height, &canvas);
+    lay_out(album, picture, head, &sheet);
+    struct error *error = canvas_create(sheet.width, sheet.height, sheet.density, &canvas);
     for (int k = 0; k < picture->panels && !error; k++)
         error = draw_panel(&canvas, album, picture, k, frame, &sheet, &outside);
     if (!error) {

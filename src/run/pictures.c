@@ -147,8 +147,9 @@ static struct error *draw_frame(struct reel *reel, int number, int64_t *count)
         const char *name = album_name(reel->album, i);
         if (!is_wanted(request, name))
             continue;
-        char *path = text_format("%s/pictures/%s-%06lld.png", request->folder, name,
-                                 shelf_number(&reel->shelf, number));
+        char *path =
+            text_format("%s%s/%s-%06lld.png", request->into ? request->into : request->folder,
+                        request->into ? "" : "/pictures", name, shelf_number(&reel->shelf, number));
         error = path ? album_draw(reel->album, i, frame, path) : out_of_memory_for("pictures");
         if (!error && request->drawn)
             request->drawn(request->context, path);
@@ -183,6 +184,8 @@ struct error *pictures_draw(const struct pictures_request *request, int64_t *cou
     const int threads = request->threads > 0 ? request->threads : omp_get_max_threads();
     struct error *error = album_create(request->input, threads, &reel.album);
     *count = 0;
+    if (!error)
+        album_set_size(reel.album, request->size);
     error = error_join(error, open_reel(request, &reel));
     error = ranks_agree(ranks, error);
     bool begun = false;

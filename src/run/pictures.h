@@ -12,7 +12,9 @@ struct pictures_request {
     const struct simulation_case *input;
     const struct ranks *ranks;
     int threads;
-    bool lenient; /* a snapshot that cannot be read is left out, instead of an error */
+    int size[2];      /* pixels; 0: as the page needs */
+    const char *into; /* the folder for the pictures, which is there; NULL: pictures of FOLDER */
+    bool lenient;     /* a snapshot that cannot be read is left out, instead of an error */
     /* What is drawn; the ranges are those of all frames all the same. */
     int count;                /* of names; 0: every picture */
     const char *const *names; /* of pictures */

@@ -60,6 +60,10 @@ assert frames == 9, frames
 PYTHON
 cp -r shield broken
 head -c 1000 broken/pictures/body-000003.png >half && mv half broken/pictures/body-000003.png
+# Of a size: the folder keeps its pictures.
+"$BOLIDE" film shield body --format apng --size 640x360 >film.log 2>&1 || fail "a film of a size: $(cat film.log)"
+[ "$(od -An -tx1 -j16 -N8 shield/body.png | tr -d ' ')" = 0000028000000168 ] || fail "the film is not 640x360"
+[ ! -e shield/.frames ] || fail "the frames of a film were left"
 "$BOLIDE" film broken body --format apng >wrong.log 2>&1
 [ $? = 2 ] && grep -q "body-000003.png" wrong.log || fail "half a frame: $(cat wrong.log)"
 if command -v ffmpeg >/dev/null && command -v ffprobe >/dev/null; then
