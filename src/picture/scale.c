@@ -252,28 +252,33 @@ void colour_scale_choose(struct colour_scale *scale, bool diverging, bool grey)
     scale->grey = grey;
 }
 
-struct colour colour_of(const struct colour_scale *scale, double value)
+double colour_place(const struct colour_scale *scale, double value)
 {
-    if (isnan(value))
-        return colour_unpack(0xd9d9d9);
-    const uint32_t *anchors = scale->diverging ? cool_warm : viridis;
-    int last = (int)(scale->diverging ? COUNT_OF(cool_warm) : COUNT_OF(viridis)) - 1;
     double low = scale->range.low, high = scale->range.high;
     if (scale->diverging) {
         high = range_reach(scale->range); /* zero is the middle colour */
         low = -high;
     }
-    if (scale->logarithmic) {
-        value = log(maximum(value, low));
-        low = log(low);
-        high = log(high);
-    }
-    double place = minimum(maximum((value - low) / (high - low), 0.0), 1.0) * last;
+    const double part = scale->logarithmic ? log(maximum(value, low) / low) / log(high / low)
+                                           : (value - low) / (high - low);
+    return isnan(value) ? (double)NAN : part > 0.0 ? minimum(part, 1.0) : 0.0;
+}
+
+struct colour colour_at_place(const struct colour_scale *scale, double place)
+{
+    const uint32_t *anchors = scale->diverging ? cool_warm : viridis;
+    const int last = (int)(scale->diverging ? COUNT_OF(cool_warm) : COUNT_OF(viridis)) - 1;
     if (scale->grey)
-        return (struct colour){place / last, place / last, place / last};
-    int below = (int)minimum(place, last - 1);
+        return (struct colour){place, place, place};
+    const int below = (int)minimum(place * last, last - 1);
     return colour_between(colour_unpack(anchors[below]), colour_unpack(anchors[below + 1]),
-                          place - below);
+                          place * last - below);
+}
+
+struct colour colour_of(const struct colour_scale *scale, double value)
+{
+    const double place = colour_place(scale, value);
+    return isnan(place) ? colour_unpack(0xd9d9d9) : colour_at_place(scale, place);
 }
 
 struct colour colour_of_category(int index)

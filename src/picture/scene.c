@@ -11,12 +11,22 @@ enum { FRAGMENT_COLOURS = 12 };
 struct colour colouring_of(const struct colouring *colouring, double value)
 {
     static const struct colour dust = {0.25, 0.25, 0.25}, small = {0.78, 0.78, 0.78};
-    if (colouring->scale)
-        return colour_of(colouring->scale, value);
+    const struct colour_scale *scale = colouring->scale;
+    if (scale) {
+        const double place = colour_place(scale, value);
+        return isnan(place) ? colour_of(scale, value)
+                            : colouring->shade[(int)(place * (COLOUR_SHADES - 1) + 0.5)];
+    }
     const int number = isfinite(value) ? (int)value : 0;
     if (!colouring->fragments)
         return colour_of_category(number);
     return number < 1 ? dust : number > FRAGMENT_COLOURS ? small : colour_of_category(number - 1);
+}
+
+void colouring_prepare(struct colouring *colouring)
+{
+    for (int i = 0; i < COLOUR_SHADES && colouring->scale; i++)
+        colouring->shade[i] = colour_at_place(colouring->scale, (double)i / (COLOUR_SHADES - 1));
 }
 
 uint32_t pixel_of(struct colour colour, double shade)

@@ -37,6 +37,7 @@ struct view {
     double up_sign;                      /* -1 where the axis points down */
     double diameter;                     /* of the largest particle at the start */
     double dot;                          /* points */
+    double fill; /* a section is filled up to so many diameters from a particle */
     bool outlines, parallel;
     double direction[3], right[3], top[3]; /* of a perspective: to the eye; on the page */
     double eye[3];
@@ -58,11 +59,16 @@ struct projection {
 };
 
 /* The colours of values; of categories where SCALE is NULL. */
+enum { COLOUR_SHADES = 1024 };
 struct colouring {
     const struct colour_scale *scale;
     bool fragments;
     double schlieren, steepest; /* strength and scale of a schlieren picture; 0: none */
+    struct colour shade[COLOUR_SHADES];
 };
+
+/* Fills the shades, once the rest is there. */
+void colouring_prepare(struct colouring *colouring);
 
 struct colour colouring_of(const struct colouring *colouring, double value);
 

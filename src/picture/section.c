@@ -1,12 +1,13 @@
-/* Sections: each pixel shows the nearest particle. A pixel is material where it is within FILL
+/* Sections: each pixel shows the nearest particle. A pixel is material where it is within `fill`
  * diameters of a particle, and at free surfaces not farther than EDGE: gaps between neighbours that
- * are stretched or compressed close, cracks wider than a particle stay open. */
+ * are stretched or compressed close, cracks wider than a particle stay open (of material points:
+ * wider than a cell and a half, as their grid sees no others). */
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "picture/scene.h"
 
-static const float FILL = 0.8f, EDGE = 0.55f;
+static const float BLEND = 0.8f, EDGE = 0.55f;
 /* Cells lie behind particles. */
 static const float CELL_DEPTH = 16.0f;
 
@@ -21,13 +22,14 @@ struct drawing {
     const struct projection *projection;
     const struct colouring *colouring;
     int width, height, threads;
-    float dot; /* smallest diameter, pixels */
+    float dot, fill; /* smallest diameter, pixels; see above */
     struct mark *mark;
     struct row_bands bands;
     float *depth, *value; /* of each pixel */
     int32_t *nearest;     /* item; -1: none */
     int32_t *empty;       /* square of the distance to the nearest empty one, pixels */
     bool *filled;
+    struct pixel_box covered; /* all that marks reach, and a pixel more */
 };
 
 static const struct scene_item *item_of(const struct drawing *d, int32_t mark)
@@ -38,18 +40,23 @@ static const struct scene_item *item_of(const struct drawing *d, int32_t mark)
 /* How far from its middle an item colours pixels. */
 static float reach_of(const struct drawing *d, const struct mark *mark, bool cell)
 {
-    return cell ? 0.5f * mark->diameter : maximum(FILL * mark->diameter, 0.5f * d->dot);
+    return cell ? 0.5f * mark->diameter : maximum(d->fill * mark->diameter, 0.5f * d->dot);
 }
 
-/* The square of the distance of pixel (x, y) in units of the reach of what covers it; above 1: not
- * covered. */
-static float distance_of(const struct drawing *d, const struct mark *mark, bool cell, int x, int y)
+static void find_covered(struct drawing *d, const struct span *span, int64_t count)
 {
-    const float dx = fabsf((float)x + 0.5f - mark->x), dy = fabsf((float)y + 0.5f - mark->y);
-    const float reach = reach_of(d, mark, cell);
-    if (cell)
-        return dx <= reach * 1.001f && dy <= reach * 1.001f ? CELL_DEPTH : 1e30f;
-    return dx * dx + dy * dy > reach * reach ? 1e30f : (dx * dx + dy * dy) / (reach * reach);
+    struct span across = {INFINITY, -INFINITY}, down = {INFINITY, -INFINITY};
+    for (int64_t i = 0; i < count; i++) {
+        const float reach = 0.5f * (span[i].bottom - span[i].top), x = d->mark[i].x;
+        if (!(reach >= 0.0f))
+            continue;
+        across = (struct span){minimum(across.top, x - reach), maximum(across.bottom, x + reach)};
+        down = (struct span){minimum(down.top, span[i].top), maximum(down.bottom, span[i].bottom)};
+    }
+    d->covered = (struct pixel_box){(int)maximum(minimum(across.top - 2.0f, d->width - 1), 0),
+                                    (int)maximum(minimum(across.bottom + 2.0f, d->width - 1), 0),
+                                    (int)maximum(minimum(down.top - 2.0f, d->height - 1), 0),
+                                    (int)maximum(minimum(down.bottom + 2.0f, d->height - 1), 0)};
 }
 
 static struct error *place_marks(struct drawing *d)
@@ -85,6 +92,7 @@ static struct error *place_marks(struct drawing *d)
                 seen ? (struct span){mark->y - reach, mark->y + reach} : (struct span){1.0f, 0.0f};
         }
     }
+    find_covered(d, span, images * count);
     struct error *error = row_bands_make(span, images * count, d->height, &d->bands);
     free(span);
     return error;
@@ -96,11 +104,18 @@ static void find_nearest(struct drawing *d, int band)
         const int32_t m = d->bands.item[k];
         const struct mark *mark = &d->mark[m];
         const bool cell = item_of(d, m)->cell;
+        const float reach = reach_of(d, mark, cell), per_square = 1.0f / (reach * reach);
         const struct pixel_box box =
-            row_bands_box(mark->x, mark->y, reach_of(d, mark, cell), band, d->width, d->height);
+            row_bands_box(mark->x, mark->y, reach, band, d->width, d->height);
         for (int y = box.top; y <= box.bottom; y++)
             for (int x = box.left; x <= box.right; x++) {
-                const float distance = distance_of(d, mark, cell, x, y);
+                const float dx = fabsf((float)x + 0.5f - mark->x),
+                            dy = fabsf((float)y + 0.5f - mark->y);
+                const float off = cell ? maximum(dx, dy) : dx * dx + dy * dy;
+                if (off > (cell ? reach * 1.001f : reach * reach))
+                    continue;
+                /* in units of the reach, squared */
+                const float distance = cell ? CELL_DEPTH : off * per_square;
                 const int64_t p = (int64_t)y * d->width + x;
                 if (distance < d->depth[p]) {
                     d->depth[p] = distance;
@@ -115,20 +130,21 @@ static void find_nearest(struct drawing *d, int band)
  * First along the columns X .. END - 1, each by itself. */
 enum { FAR_OFF = 1 << 14 };
 
-static void sweep_columns(struct drawing *d, int x, int end)
+static void sweep_columns(struct drawing *d, int left, int end)
 {
-    for (; x < end; x++) {
-        int32_t off = FAR_OFF;
-        for (int y = 0; y < d->height; y++) {
-            const int64_t p = (int64_t)y * d->width + x;
-            off = d->nearest[p] < 0 ? 0 : off < FAR_OFF ? off + 1 : off;
-            d->empty[p] = off;
+    const int64_t width = d->width;
+    for (int64_t y = d->covered.top; y <= d->covered.bottom; y++) {
+        const int32_t *nearest = d->nearest + y * width;
+        int32_t *row = d->empty + y * width;
+        for (int x = left; x < end; x++) {
+            const int32_t above = y > d->covered.top ? row[x - width] : FAR_OFF;
+            row[x] = nearest[x] < 0 ? 0 : above < FAR_OFF ? above + 1 : FAR_OFF;
         }
-        for (int y = d->height - 2; y >= 0; y--) {
-            const int64_t p = (int64_t)y * d->width + x;
-            if (d->empty[p + d->width] < d->empty[p])
-                d->empty[p] = d->empty[p + d->width] + 1;
-        }
+    }
+    for (int64_t y = d->covered.bottom - 1; y >= d->covered.top; y--) {
+        int32_t *row = d->empty + y * width;
+        for (int x = left; x < end; x++)
+            row[x] = row[x + width] < row[x] ? row[x + width] + 1 : row[x];
     }
 }
 
@@ -136,13 +152,14 @@ static void sweep_columns(struct drawing *d, int x, int end)
  * point at AT. Both have room for a row. */
 static void sweep_row(struct drawing *d, int y, int *at, int *from, int64_t *square_of)
 {
-    int32_t *row = d->empty + (int64_t)y * d->width;
+    int32_t *row = d->empty + (int64_t)y * d->width + d->covered.left;
+    const int width = d->covered.right + 1 - d->covered.left;
     int last = 0;
     at[0] = from[0] = 0;
-    for (int x = 0; x < d->width; x++)
+    for (int x = 0; x < width; x++)
         square_of[x] = (int64_t)row[x] * row[x];
 #define HEIGHT(x, i) (((int64_t)(x) - (i)) * ((int64_t)(x) - (i)) + square_of[i])
-    for (int x = 1; x < d->width; x++) {
+    for (int x = 1; x < width; x++) {
         while (last >= 0 && HEIGHT(from[last], at[last]) > HEIGHT(from[last], x))
             last--;
         if (last < 0) {
@@ -152,12 +169,12 @@ static void sweep_row(struct drawing *d, int y, int *at, int *from, int64_t *squ
         const int64_t i = at[last];
         const int64_t begin =
             1 + ((int64_t)x * x - i * i + square_of[x] - square_of[i]) / (2 * ((int64_t)x - i));
-        if (begin < d->width) {
+        if (begin < width) {
             at[++last] = x;
             from[last] = (int)begin;
         }
     }
-    for (int x = d->width - 1; x >= 0; x--) {
+    for (int x = width - 1; x >= 0; x--) {
         const int64_t height = HEIGHT(x, at[last]);
         row[x] = (int32_t)minimum(height, INT32_MAX);
         if (x == from[last])
@@ -171,8 +188,8 @@ static struct error *find_distances(struct drawing *d)
     enum { COLUMNS = 64 };
     bool failed = false;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(d->threads)
-    for (int x = 0; x < d->width; x += COLUMNS)
-        sweep_columns(d, x, x + COLUMNS < d->width ? x + COLUMNS : d->width);
+    for (int x = d->covered.left; x <= d->covered.right; x += COLUMNS)
+        sweep_columns(d, x, x + COLUMNS <= d->covered.right ? x + COLUMNS : d->covered.right + 1);
 #pragma omp parallel num_threads(d->threads)
     {
         const size_t room = (size_t)d->width;
@@ -182,7 +199,7 @@ static struct error *find_distances(struct drawing *d)
 #pragma omp atomic write
             failed = true;
 #pragma omp for schedule(dynamic, 16)
-        for (int y = 0; y < d->height; y++)
+        for (int y = d->covered.top; y <= d->covered.bottom; y++)
             if (scratch)
                 sweep_row(d, y, at, at + room, scratch);
         free(scratch);
@@ -201,9 +218,9 @@ static void find_filled(struct drawing *d, int band)
                 continue;
             const float diameter = d->mark[m].diameter;
             const float reach = reach_of(d, &d->mark[m], false);
-            d->filled[p] = d->depth[p] >= CELL_DEPTH || FILL * diameter < 0.5f * d->dot ||
+            d->filled[p] = d->depth[p] >= CELL_DEPTH || d->fill * diameter < 0.5f * d->dot ||
                            d->depth[p] * reach * reach <= EDGE * EDGE * diameter * diameter ||
-                           (float)d->empty[p] > square((FILL - EDGE) * diameter);
+                           (float)d->empty[p] > square((d->fill - EDGE) * diameter);
         }
 }
 
@@ -217,9 +234,11 @@ static void blend(struct drawing *d, int band, float *sum, float *weights)
         const int32_t m = d->bands.item[k];
         const struct mark *mark = &d->mark[m];
         const struct scene_item *item = item_of(d, m);
-        const float reach = item->cell ? 1.0f * mark->diameter : reach_of(d, mark, false);
+        const float reach =
+            item->cell ? mark->diameter : maximum(BLEND * mark->diameter, 0.5f * d->dot);
         const struct pixel_box box =
             row_bands_box(mark->x, mark->y, reach, band, d->width, d->height);
+        const float per = 1.0f / reach;
         if (isnan(item->value))
             continue;
         for (int y = box.top; y <= box.bottom; y++)
@@ -228,8 +247,8 @@ static void blend(struct drawing *d, int band, float *sum, float *weights)
                 if (d->nearest[p] < 0 || item_of(d, d->nearest[p])->body != item->body ||
                     item_of(d, d->nearest[p])->cell != item->cell)
                     continue;
-                const float dx = fabsf((float)x + 0.5f - mark->x) / reach;
-                const float dy = fabsf((float)y + 0.5f - mark->y) / reach;
+                const float dx = fabsf((float)x + 0.5f - mark->x) * per;
+                const float dy = fabsf((float)y + 0.5f - mark->y) * per;
                 const float near = 1.0f - (dx * dx + dy * dy);
                 float weight = near > 0.0f ? near * near + 1e-4f : 0.0f;
                 if (item->cell)
@@ -399,7 +418,8 @@ struct error *section_draw(const struct scene *scene, const struct view *view,
                         .width = raster->width,
                         .height = raster->height,
                         .threads = threads,
-                        .dot = (float)(view->dot * projection->density)};
+                        .dot = (float)(view->dot * projection->density),
+                        .fill = (float)view->fill};
     struct error *error = allocate(&d);
     if (!error) {
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)

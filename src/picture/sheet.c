@@ -31,6 +31,9 @@ enum {
     FRAGMENTS_NAMED = 5
 };
 
+/* Pixels a point: screens have one to two, and drawing takes time by the pixel. */
+static const double DENSITY = 1.5;
+
 /* Text of a legend that is made for it. */
 struct legend_words {
     int count;
@@ -143,7 +146,7 @@ static void lay_out(const struct album *album, const struct picture *picture, do
     const double foot = (has_bar(picture) ? BAR_GAP + BAR_THICKNESS + AXIS_HEIGHT : 4.0) +
                         (solid ? 0.0 : AXIS_HEIGHT);
     const double density = album->size[1] ? (double)album->size[1] / SIZED_HEIGHT : 0.0;
-    *sheet = (struct sheet){.head = head, .density = density > 0.0 ? density : PIXELS_PER_POINT};
+    *sheet = (struct sheet){.head = head, .density = density > 0.0 ? density : DENSITY};
     sheet->panel_width = picture->panels > 1 ? PANEL_WIDTH : PAGE_WIDTH;
     sheet->tallest = solid ? SOLID_HEIGHT : HEIGHT_MAX;
     if (density > 0.0) {
@@ -392,11 +395,12 @@ static struct error *draw_raster(const struct album *album, const struct picture
                                  double *steepest)
 {
     struct scene scene;
-    const struct colouring colouring = {
-        .scale = panel->category ? NULL : &panel->scale,
-        .fragments = panel->fragments,
-        .schlieren = panel->schlieren ? picture->input->schlieren.strength : 0.0,
-        .steepest = panel->steepest};
+    struct colouring colouring = {.scale = panel->category ? NULL : &panel->scale,
+                                  .fragments = panel->fragments,
+                                  .schlieren =
+                                      panel->schlieren ? picture->input->schlieren.strength : 0.0,
+                                  .steepest = panel->steepest};
+    colouring_prepare(&colouring);
     *raster = (struct raster){.width = (int)(sheet->box_width * sheet->density),
                               .height = (int)(sheet->box_height * sheet->density)};
     raster->pixel =
@@ -462,7 +466,7 @@ static struct error *draw_panel(const struct canvas *canvas, const struct album 
 static struct error *measure_head(const struct legend_words *words, double width, double *head)
 {
     struct canvas probe;
-    struct error *error = canvas_create(1.0, 1.0, PIXELS_PER_POINT, &probe);
+    struct error *error = canvas_create(1.0, 1.0, DENSITY, &probe);
     *head = canvas_header(&probe, 0.0, "", "") + 4.0;
     if (!error)
         *head +=

@@ -319,6 +319,13 @@ static void find_eye(struct view *view)
                           2.4 * sqrt(size) * view->direction[axis];
 }
 
+/* Material points in a cell or next to each other belong together, as far as they are stretched. */
+static double fill_of(const struct simulation_case *input)
+{
+    const struct choice *solver = input->solver.choice;
+    return !solver || !strcmp(solver->name, "sph") ? 0.8 : 1.6;
+}
+
 struct error *view_find(const struct album *album, const struct frame *first,
                         const struct frame *last, struct picture *picture)
 {
@@ -332,6 +339,7 @@ struct error *view_find(const struct album *album, const struct frame *first,
                           .normal = -1,
                           .up_sign = 1.0,
                           .dot = input->dot,
+                          .fill = fill_of(album->input),
                           .outlines = input->outlines,
                           .parallel = input->parallel};
     TRY(look(album, picture, first, &bodies));

@@ -23,7 +23,7 @@ bodies:
 run: {until: 2.5 us}
 output: {every: 1 us}
 END
-rm -rf one two ranks none before
+rm -rf one two ranks none before listed
 "$BOLIDE" run shield.yaml --threads 1 --output one >one.log 2>&1 || fail "the run: $(tail -n 3 one.log)"
 "$BOLIDE" run shield.yaml --threads 2 --output two >two.log 2>&1 || fail "on two threads: $(tail -n 3 two.log)"
 if [ -n "${BOLIDE_MPIRUN:-}" ]; then

@@ -357,8 +357,8 @@ static void any_input_is_drawn_on_a_page_of_sane_size(void **state)
             assert_null(frame_order(group));
             struct album *album = album_of(&input, 1, &frame, &frame);
             cairo_surface_t *surface = draw_surface(album, 0, &frame);
-            assert_in_range(cairo_image_surface_get_width(surface), 800, 2400);
-            assert_in_range(cairo_image_surface_get_height(surface), 200, 2200);
+            assert_in_range(cairo_image_surface_get_width(surface), 600, 1800);
+            assert_in_range(cairo_image_surface_get_height(surface), 150, 1650);
             cairo_surface_destroy(surface);
             album_free(album);
             frame_free(&frame);
