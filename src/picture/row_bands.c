@@ -15,8 +15,8 @@ static bool band_range(const struct span *span, int count, int *first, int *last
     return true;
 }
 
-struct error *row_bands_make(const struct span *span, int64_t count, int height,
-                             struct row_bands *bands)
+static struct error *fill_bands(const struct span *span, int64_t count, int height,
+                                struct row_bands *bands)
 {
     int first, last;
     *bands = (struct row_bands){.count = (height + BAND_ROWS - 1) / BAND_ROWS};
@@ -39,6 +39,25 @@ struct error *row_bands_make(const struct span *span, int64_t count, int height,
             for (int band = first; band <= last; band++)
                 bands->item[begin[band + 1]++] = (int32_t)i;
     return NULL;
+}
+
+struct error *row_bands_make(const struct drawing_of *of, mark_place place, void *context,
+                             struct row_bands *bands)
+{
+    const int64_t count = of->scene->count, marks = view_images(of->view) * count;
+    struct span *span = memory_allocate((size_t)marks * sizeof *span + 1);
+    if (!span)
+        return out_of_memory_for("a picture");
+#pragma omp parallel for schedule(static) num_threads(of->threads)
+    for (int64_t m = 0; m < marks; m++) {
+        double sign[3], at[3];
+        view_image(of->view, (int)(m / count), sign);
+        view_reflect(of->view, sign, of->scene->item[m % count].place, at);
+        span[m] = place(context, m, at);
+    }
+    struct error *error = fill_bands(span, marks, of->height, bands);
+    free(span);
+    return error;
 }
 
 void row_bands_free(struct row_bands *bands)

@@ -92,7 +92,8 @@ void colour_scale_choose(struct colour_scale *scale, bool diverging, bool grey);
 /* The colour of VALUE; beyond the range the end's colour, light grey for NaN. */
 struct colour colour_of(const struct colour_scale *scale, double value);
 
-/* The same in two steps: where VALUE is among the colours, 0 to 1, NaN for NaN; the colour there. */
+/* The same in two steps: where VALUE is among the colours, 0 to 1, NaN for NaN; the colour
+ * there. */
 double colour_place(const struct colour_scale *scale, double value);
 struct colour colour_at_place(const struct colour_scale *scale, double place);
 

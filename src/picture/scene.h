@@ -82,17 +82,29 @@ void view_image(const struct view *view, int image, double sign[3]);
 void view_reflect(const struct view *view, const double sign[3], const float place[3],
                   double at[3]);
 
+/* What both renderers are told. */
+struct drawing_of {
+    const struct scene *scene;
+    const struct view *view;
+    const struct projection *projection;
+    const struct colouring *colouring;
+    int width, height, threads; /* of the raster */
+    float dot;                  /* smallest diameter, pixels */
+};
+
+/* Marks are images of items, one image after the other. */
+BOLIDE_INLINE const struct scene_item *drawing_item(const struct drawing_of *of, int32_t mark)
+{
+    return &of->scene->item[mark % of->scene->count];
+}
+
 /* section.c: cells of the nearest particle, filled, with values blended inside a body. STEEPEST:
  * NULL, or gets the 99.9 percentile of the gradient of the values, per pixel; then nothing is
  * drawn. */
-struct error *section_draw(const struct scene *scene, const struct view *view,
-                           const struct projection *projection, const struct colouring *colouring,
-                           int threads, struct raster *raster, double *steepest);
+struct error *section_draw(const struct drawing_of *of, struct raster *raster, double *steepest);
 
 /* solid.c: spheres with a z-buffer, flat where cut. */
-struct error *solid_draw(const struct scene *scene, const struct view *view,
-                         const struct projection *projection, const struct colouring *colouring,
-                         int threads, struct raster *raster);
+struct error *solid_draw(const struct drawing_of *of, struct raster *raster);
 
 /* The projection of a point; false where it is behind the eye. */
 bool view_project(const struct view *view, const struct projection *projection,
@@ -108,7 +120,9 @@ struct row_bands {
 struct span {
     float top, bottom; /* rows; top above bottom: not drawn */
 };
-struct error *row_bands_make(const struct span *span, int64_t count, int height,
+/* Of all marks; PLACE keeps what CONTEXT wants of the one at AT and says which rows it touches. */
+typedef struct span (*mark_place)(void *context, int64_t mark, const double at[3]);
+struct error *row_bands_make(const struct drawing_of *of, mark_place place, void *context,
                              struct row_bands *bands);
 void row_bands_free(struct row_bands *bands);
 

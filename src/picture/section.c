@@ -17,12 +17,8 @@ struct mark {
 };
 
 struct drawing {
-    const struct scene *scene;
-    const struct view *view;
-    const struct projection *projection;
-    const struct colouring *colouring;
-    int width, height, threads;
-    float dot, fill; /* smallest diameter, pixels; see above */
+    struct drawing_of of;
+    float fill; /* see above */
     struct mark *mark;
     struct row_bands bands;
     float *depth, *value; /* of each pixel */
@@ -34,68 +30,50 @@ struct drawing {
 
 static const struct scene_item *item_of(const struct drawing *d, int32_t mark)
 {
-    return &d->scene->item[mark % d->scene->count];
+    return drawing_item(&d->of, mark);
 }
 
 /* How far from its middle an item colours pixels. */
 static float reach_of(const struct drawing *d, const struct mark *mark, bool cell)
 {
-    return cell ? 0.5f * mark->diameter : maximum(d->fill * mark->diameter, 0.5f * d->dot);
+    return cell ? 0.5f * mark->diameter : maximum(d->fill * mark->diameter, 0.5f * d->of.dot);
 }
 
-static void find_covered(struct drawing *d, const struct span *span, int64_t count)
+static struct span place_mark(void *context, int64_t number, const double at[3])
+{
+    const struct drawing *d = context;
+    const struct view *v = d->of.view;
+    const struct projection *projection = d->of.projection;
+    const struct scene_item *item = item_of(d, (int32_t)number);
+    struct mark *mark = &d->mark[number];
+    const double x = 0.5 * (v->window[v->across].low + v->window[v->across].high),
+                 y = 0.5 * (v->window[v->up].low + v->window[v->up].high);
+    mark->x = (float)(projection->x + projection->scale * (at[v->across] - x));
+    mark->y = (float)(projection->y - v->up_sign * projection->scale * (at[v->up] - y));
+    mark->diameter = (float)(projection->scale * item->diameter);
+    const float reach = reach_of(d, mark, item->cell) + 1.0f + 0.6f * item->cell * mark->diameter;
+    const bool seen = mark->x + reach > 0.0f && mark->x - reach < (float)d->of.width;
+    return seen ? (struct span){mark->y - reach, mark->y + reach} : (struct span){1.0f, 0.0f};
+}
+
+static void find_covered(struct drawing *d)
 {
     struct span across = {INFINITY, -INFINITY}, down = {INFINITY, -INFINITY};
-    for (int64_t i = 0; i < count; i++) {
-        const float reach = 0.5f * (span[i].bottom - span[i].top), x = d->mark[i].x;
-        if (!(reach >= 0.0f))
-            continue;
-        across = (struct span){minimum(across.top, x - reach), maximum(across.bottom, x + reach)};
-        down = (struct span){minimum(down.top, span[i].top), maximum(down.bottom, span[i].bottom)};
-    }
-    d->covered = (struct pixel_box){(int)maximum(minimum(across.top - 2.0f, d->width - 1), 0),
-                                    (int)maximum(minimum(across.bottom + 2.0f, d->width - 1), 0),
-                                    (int)maximum(minimum(down.top - 2.0f, d->height - 1), 0),
-                                    (int)maximum(minimum(down.bottom + 2.0f, d->height - 1), 0)};
-}
-
-static struct error *place_marks(struct drawing *d)
-{
-    const struct view *v = d->view;
-    const int images = view_images(v);
-    const int64_t count = d->scene->count;
-    struct span *span = memory_allocate((size_t)(images * count) * sizeof *span + 1);
-    d->mark = memory_allocate((size_t)(images * count) * sizeof *d->mark + 1);
-    if (!span || !d->mark) {
-        free(span);
-        return out_of_memory_for("a picture");
-    }
-    const double middle[2] = {0.5 * (v->window[v->across].low + v->window[v->across].high),
-                              0.5 * (v->window[v->up].low + v->window[v->up].high)};
-    for (int image = 0; image < images; image++) {
-        double sign[3];
-        view_image(v, image, sign);
-        for (int64_t i = 0; i < count; i++) {
-            const struct scene_item *item = &d->scene->item[i];
-            double at[3];
-            view_reflect(v, sign, item->place, at);
-            struct mark *mark = &d->mark[image * count + i];
-            mark->x =
-                (float)(d->projection->x + d->projection->scale * (at[v->across] - middle[0]));
-            mark->y = (float)(d->projection->y -
-                              v->up_sign * d->projection->scale * (at[v->up] - middle[1]));
-            mark->diameter = (float)(d->projection->scale * item->diameter);
+    for (int band = 0; band < d->bands.count; band++)
+        for (int64_t k = d->bands.begin[band]; k < d->bands.begin[band + 1]; k++) {
+            const struct mark *mark = &d->mark[d->bands.item[k]];
             const float reach =
-                reach_of(d, mark, item->cell) + 1.0f + 0.6f * item->cell * mark->diameter;
-            const bool seen = mark->x + reach > 0.0f && mark->x - reach < (float)d->width;
-            span[image * count + i] =
-                seen ? (struct span){mark->y - reach, mark->y + reach} : (struct span){1.0f, 0.0f};
+                reach_of(d, mark, item_of(d, d->bands.item[k])->cell) + 0.6f * mark->diameter;
+            across.top = minimum(across.top, mark->x - reach);
+            across.bottom = maximum(across.bottom, mark->x + reach);
+            down.top = minimum(down.top, mark->y - reach);
+            down.bottom = maximum(down.bottom, mark->y + reach);
         }
-    }
-    find_covered(d, span, images * count);
-    struct error *error = row_bands_make(span, images * count, d->height, &d->bands);
-    free(span);
-    return error;
+    const int right = d->of.width - 1, bottom = d->of.height - 1;
+    d->covered = (struct pixel_box){(int)maximum(minimum(across.top - 3.0f, right), 0),
+                                    (int)maximum(minimum(across.bottom + 3.0f, right), 0),
+                                    (int)maximum(minimum(down.top - 3.0f, bottom), 0),
+                                    (int)maximum(minimum(down.bottom + 3.0f, bottom), 0)};
 }
 
 static void find_nearest(struct drawing *d, int band)
@@ -106,7 +84,7 @@ static void find_nearest(struct drawing *d, int band)
         const bool cell = item_of(d, m)->cell;
         const float reach = reach_of(d, mark, cell), per_square = 1.0f / (reach * reach);
         const struct pixel_box box =
-            row_bands_box(mark->x, mark->y, reach, band, d->width, d->height);
+            row_bands_box(mark->x, mark->y, reach, band, d->of.width, d->of.height);
         for (int y = box.top; y <= box.bottom; y++)
             for (int x = box.left; x <= box.right; x++) {
                 const float dx = fabsf((float)x + 0.5f - mark->x),
@@ -116,7 +94,7 @@ static void find_nearest(struct drawing *d, int band)
                     continue;
                 /* in units of the reach, squared */
                 const float distance = cell ? CELL_DEPTH : off * per_square;
-                const int64_t p = (int64_t)y * d->width + x;
+                const int64_t p = (int64_t)y * d->of.width + x;
                 if (distance < d->depth[p]) {
                     d->depth[p] = distance;
                     d->nearest[p] = m;
@@ -132,7 +110,7 @@ enum { FAR_OFF = 1 << 14 };
 
 static void sweep_columns(struct drawing *d, int left, int end)
 {
-    const int64_t width = d->width;
+    const int64_t width = d->of.width;
     for (int64_t y = d->covered.top; y <= d->covered.bottom; y++) {
         const int32_t *nearest = d->nearest + y * width;
         int32_t *row = d->empty + y * width;
@@ -152,7 +130,7 @@ static void sweep_columns(struct drawing *d, int left, int end)
  * point at AT. Both have room for a row. */
 static void sweep_row(struct drawing *d, int y, int *at, int *from, int64_t *square_of)
 {
-    int32_t *row = d->empty + (int64_t)y * d->width + d->covered.left;
+    int32_t *row = d->empty + (int64_t)y * d->of.width + d->covered.left;
     const int width = d->covered.right + 1 - d->covered.left;
     int last = 0;
     at[0] = from[0] = 0;
@@ -187,12 +165,12 @@ static struct error *find_distances(struct drawing *d)
 {
     enum { COLUMNS = 64 };
     bool failed = false;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(d->threads)
+#pragma omp parallel for schedule(dynamic, 1) num_threads(d->of.threads)
     for (int x = d->covered.left; x <= d->covered.right; x += COLUMNS)
         sweep_columns(d, x, x + COLUMNS <= d->covered.right ? x + COLUMNS : d->covered.right + 1);
-#pragma omp parallel num_threads(d->threads)
+#pragma omp parallel num_threads(d->of.threads)
     {
-        const size_t room = (size_t)d->width;
+        const size_t room = (size_t)d->of.width;
         int64_t *scratch = memory_allocate(room * (sizeof(int64_t) + 2 * sizeof(int)));
         int *at = scratch ? (int *)(void *)(scratch + room) : NULL;
         if (!scratch)
@@ -210,15 +188,15 @@ static struct error *find_distances(struct drawing *d)
 static void find_filled(struct drawing *d, int band)
 {
     const int end = (band + 1) * BAND_ROWS;
-    for (int y = band * BAND_ROWS; y < end && y < d->height; y++)
-        for (int x = 0; x < d->width; x++) {
-            const int64_t p = (int64_t)y * d->width + x;
+    for (int y = band * BAND_ROWS; y < end && y < d->of.height; y++)
+        for (int x = 0; x < d->of.width; x++) {
+            const int64_t p = (int64_t)y * d->of.width + x;
             const int32_t m = d->nearest[p];
             if (m < 0)
                 continue;
             const float diameter = d->mark[m].diameter;
             const float reach = reach_of(d, &d->mark[m], false);
-            d->filled[p] = d->depth[p] >= CELL_DEPTH || d->fill * diameter < 0.5f * d->dot ||
+            d->filled[p] = d->depth[p] >= CELL_DEPTH || d->fill * diameter < 0.5f * d->of.dot ||
                            d->depth[p] * reach * reach <= EDGE * EDGE * diameter * diameter ||
                            (float)d->empty[p] > square((d->fill - EDGE) * diameter);
         }
@@ -228,22 +206,22 @@ static void find_filled(struct drawing *d, int band)
 static void blend(struct drawing *d, int band, float *sum, float *weights)
 {
     const int first = band * BAND_ROWS;
-    for (int i = 0; i < BAND_ROWS * d->width; i++)
+    for (int i = 0; i < BAND_ROWS * d->of.width; i++)
         sum[i] = weights[i] = 0.0f;
     for (int64_t k = d->bands.begin[band]; k < d->bands.begin[band + 1]; k++) {
         const int32_t m = d->bands.item[k];
         const struct mark *mark = &d->mark[m];
         const struct scene_item *item = item_of(d, m);
         const float reach =
-            item->cell ? mark->diameter : maximum(BLEND * mark->diameter, 0.5f * d->dot);
+            item->cell ? mark->diameter : maximum(BLEND * mark->diameter, 0.5f * d->of.dot);
         const struct pixel_box box =
-            row_bands_box(mark->x, mark->y, reach, band, d->width, d->height);
+            row_bands_box(mark->x, mark->y, reach, band, d->of.width, d->of.height);
         const float per = 1.0f / reach;
         if (isnan(item->value))
             continue;
         for (int y = box.top; y <= box.bottom; y++)
             for (int x = box.left; x <= box.right; x++) {
-                const int64_t p = (int64_t)y * d->width + x;
+                const int64_t p = (int64_t)y * d->of.width + x;
                 if (d->nearest[p] < 0 || item_of(d, d->nearest[p])->body != item->body ||
                     item_of(d, d->nearest[p])->cell != item->cell)
                     continue;
@@ -253,13 +231,13 @@ static void blend(struct drawing *d, int band, float *sum, float *weights)
                 float weight = near > 0.0f ? near * near + 1e-4f : 0.0f;
                 if (item->cell)
                     weight = dx < 1.0f && dy < 1.0f ? (1.0f - dx) * (1.0f - dy) : 0.0f;
-                sum[(y - first) * d->width + x] += weight * item->value;
-                weights[(y - first) * d->width + x] += weight;
+                sum[(y - first) * d->of.width + x] += weight * item->value;
+                weights[(y - first) * d->of.width + x] += weight;
             }
     }
-    for (int y = first; y < first + BAND_ROWS && y < d->height; y++)
-        for (int x = 0; x < d->width; x++) {
-            const int64_t p = (int64_t)y * d->width + x, q = (y - first) * d->width + x;
+    for (int y = first; y < first + BAND_ROWS && y < d->of.height; y++)
+        for (int x = 0; x < d->of.width; x++) {
+            const int64_t p = (int64_t)y * d->of.width + x, q = (y - first) * d->of.width + x;
             if (d->nearest[p] >= 0)
                 d->value[p] =
                     weights[q] > 0.0f ? sum[q] / weights[q] : item_of(d, d->nearest[p])->value;
@@ -276,14 +254,14 @@ static int body_at(const struct drawing *d, int64_t p)
 static bool is_outline(const struct drawing *d, int x, int y)
 {
     static const int step[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-    const int64_t p = (int64_t)y * d->width + x;
+    const int64_t p = (int64_t)y * d->of.width + x;
     const struct scene_item *item = item_of(d, d->nearest[p]);
-    if (!d->view->outlines || d->mark[d->nearest[p]].diameter < 1.5f * d->dot || item->cell)
+    if (!d->of.view->outlines || d->mark[d->nearest[p]].diameter < 1.5f * d->of.dot || item->cell)
         return false;
     for (int k = 0; k < 4; k++) {
         const int column = x + step[k][0], row = y + step[k][1];
-        if (column >= 0 && row >= 0 && column < d->width && row < d->height &&
-            body_at(d, (int64_t)row * d->width + column) != item->body)
+        if (column >= 0 && row >= 0 && column < d->of.width && row < d->of.height &&
+            body_at(d, (int64_t)row * d->of.width + column) != item->body)
             return true;
     }
     return false;
@@ -293,10 +271,10 @@ static bool is_outline(const struct drawing *d, int x, int y)
 static float gradient_at(const struct drawing *d, int x, int y)
 {
     float sum = 0.0f;
-    const int64_t p = (int64_t)y * d->width + x;
+    const int64_t p = (int64_t)y * d->of.width + x;
     for (int axis = 0; axis < 2; axis++) {
-        const int at = axis ? y : x, most = axis ? d->height - 1 : d->width - 1;
-        const int64_t stride = axis ? d->width : 1;
+        const int at = axis ? y : x, most = axis ? d->of.height - 1 : d->of.width - 1;
+        const int64_t stride = axis ? d->of.width : 1;
         int64_t low = p, high = p;
         if (at > 0 && body_at(d, p - stride) == body_at(d, p))
             low = p - stride;
@@ -318,14 +296,14 @@ static int by_size(const void *a, const void *b)
 
 static struct error *find_steepest(const struct drawing *d, double *steepest)
 {
-    const int64_t pixels = (int64_t)d->width * d->height;
+    const int64_t pixels = (int64_t)d->of.width * d->of.height;
     float *slope = memory_allocate((size_t)pixels * sizeof *slope + 1);
     int64_t count = 0;
     if (!slope)
         return out_of_memory_for("a picture");
     for (int64_t p = 0; p < pixels; p++)
         if (d->filled[p]) {
-            slope[count] = gradient_at(d, (int)(p % d->width), (int)(p / d->width));
+            slope[count] = gradient_at(d, (int)(p % d->of.width), (int)(p / d->of.width));
             count += isfinite(slope[count]);
         }
     qsort(slope, (size_t)count, sizeof *slope, by_size);
@@ -336,8 +314,8 @@ static struct error *find_steepest(const struct drawing *d, double *steepest)
 
 static struct colour colour_at(const struct drawing *d, int x, int y)
 {
-    const struct colouring *c = d->colouring;
-    const int64_t p = (int64_t)y * d->width + x;
+    const struct colouring *c = d->of.colouring;
+    const int64_t p = (int64_t)y * d->of.width + x;
     if (!(c->schlieren > 0.0))
         return colouring_of(c, d->value[p]);
     const double part = c->steepest > 0.0 ? gradient_at(d, x, y) / c->steepest : 0.0;
@@ -348,9 +326,9 @@ static struct colour colour_at(const struct drawing *d, int x, int y)
 static void paint(const struct drawing *d, int band, struct raster *raster)
 {
     const int end = (band + 1) * BAND_ROWS;
-    for (int y = band * BAND_ROWS; y < end && y < d->height; y++)
-        for (int x = 0; x < d->width; x++) {
-            const int64_t p = (int64_t)y * d->width + x;
+    for (int y = band * BAND_ROWS; y < end && y < d->of.height; y++)
+        for (int x = 0; x < d->of.width; x++) {
+            const int64_t p = (int64_t)y * d->of.width + x;
             if (!d->filled[p])
                 continue;
             const double shade = is_outline(d, x, y) ? 0.25 : 1.0;
@@ -360,7 +338,7 @@ static void paint(const struct drawing *d, int band, struct raster *raster)
 
 static struct error *allocate(struct drawing *d)
 {
-    const size_t pixels = (size_t)d->width * (size_t)d->height;
+    const size_t pixels = (size_t)d->of.width * (size_t)d->of.height;
     d->depth = memory_allocate(pixels * sizeof *d->depth);
     d->value = memory_allocate(pixels * sizeof *d->value);
     d->nearest = memory_allocate(pixels * sizeof *d->nearest);
@@ -372,28 +350,34 @@ static struct error *allocate(struct drawing *d)
         d->depth[p] = 1e29f;
         d->nearest[p] = -1;
     }
-    return place_marks(d);
+    d->mark = memory_allocate(
+        (size_t)(view_images(d->of.view) * d->of.scene->count) * sizeof *d->mark + 1);
+    if (!d->mark)
+        return out_of_memory_for("a picture");
+    TRY(row_bands_make(&d->of, place_mark, d, &d->bands));
+    find_covered(d);
+    return NULL;
 }
 
 /* Categories are not blended. */
 static void take_values(struct drawing *d)
 {
-    for (int64_t p = 0; p < (int64_t)d->width * d->height; p++)
+    for (int64_t p = 0; p < (int64_t)d->of.width * d->of.height; p++)
         if (d->nearest[p] >= 0)
             d->value[p] = item_of(d, d->nearest[p])->value;
 }
 
 static struct error *find_values(struct drawing *d)
 {
-    const bool blends = d->colouring->scale || d->colouring->schlieren > 0.0;
+    const bool blends = d->of.colouring->scale || d->of.colouring->schlieren > 0.0;
     bool failed = false;
     if (!blends) {
         take_values(d);
         return NULL;
     }
-#pragma omp parallel num_threads(d->threads)
+#pragma omp parallel num_threads(d->of.threads)
     {
-        const size_t room = (size_t)(BAND_ROWS * d->width);
+        const size_t room = (size_t)(BAND_ROWS * d->of.width);
         float *sum = memory_allocate(2 * room * sizeof *sum);
         if (!sum)
 #pragma omp atomic write
@@ -407,19 +391,10 @@ static struct error *find_values(struct drawing *d)
     return failed ? out_of_memory_for("a picture") : NULL;
 }
 
-struct error *section_draw(const struct scene *scene, const struct view *view,
-                           const struct projection *projection, const struct colouring *colouring,
-                           int threads, struct raster *raster, double *steepest)
+struct error *section_draw(const struct drawing_of *of, struct raster *raster, double *steepest)
 {
-    struct drawing d = {.scene = scene,
-                        .view = view,
-                        .projection = projection,
-                        .colouring = colouring,
-                        .width = raster->width,
-                        .height = raster->height,
-                        .threads = threads,
-                        .dot = (float)(view->dot * projection->density),
-                        .fill = (float)view->fill};
+    struct drawing d = {.of = *of, .fill = (float)of->view->fill};
+    const int threads = of->threads;
     struct error *error = allocate(&d);
     if (!error) {
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)

@@ -21,7 +21,6 @@ enum {
     RIGHT = 22,
     AXIS_HEIGHT = 42,
     BAR_GAP = 10,
-    BAR_THICKNESS = 11,
     BOX_SIDE = 80, /* beside a perspective, for its axes; below it */
     BOX_MARGIN = 52,
     BOX_TOP = 10,
@@ -52,14 +51,6 @@ struct sheet {
 };
 
 static double length_of(struct range range) { return range.high - range.low; }
-
-void field_text(const char *field, char *buffer, size_t size)
-{
-    snprintf(buffer, size, "%s", field);
-    for (char *letter = buffer; *letter; ++letter)
-        if (*letter == '_' || *letter == '.')
-            *letter = ' ';
-}
 
 static const char *title_of(const struct album *album)
 {
@@ -261,79 +252,6 @@ static void note_text(const struct picture *picture, const struct frame *frame, 
     snprintf(buffer, size, "t = %s%s%s", time, plane, out);
 }
 
-/* A pointed end says that there are values outside of the scale. */
-static void bar_end(const struct canvas *canvas, const struct colour_scale *colours, double value,
-                    double x, double y, double point)
-{
-    canvas_colour(canvas, colour_of(colours, value));
-    cairo_move_to(canvas->pen, x, y);
-    cairo_line_to(canvas->pen, x + point, y + 0.5 * BAR_THICKNESS);
-    cairo_line_to(canvas->pen, x, y + BAR_THICKNESS);
-    cairo_fill(canvas->pen);
-}
-
-static void draw_shades(const struct canvas *canvas, const struct axis *bar, double top,
-                        const struct colour_scale *colours)
-{
-    enum { shade_count = 96 };
-    cairo_pattern_t *shades = cairo_pattern_create_linear(bar->start, 0.0, bar->end, 0.0);
-    for (int i = 0; i <= shade_count; ++i) {
-        const double part = (double)i / shade_count;
-        const double value = bar->logarithmic
-                                 ? bar->range.low * pow(bar->range.high / bar->range.low, part)
-                                 : bar->range.low + part * (bar->range.high - bar->range.low);
-        const struct colour colour = colour_of(colours, value);
-        cairo_pattern_add_color_stop_rgb(shades, part, colour.red, colour.green, colour.blue);
-    }
-    cairo_set_source(canvas->pen, shades);
-    cairo_rectangle(canvas->pen, bar->start, top, bar->end - bar->start, BAR_THICKNESS);
-    cairo_fill(canvas->pen);
-    cairo_pattern_destroy(shades);
-}
-
-/* A field that is the same everywhere at all times has one colour and no scale. */
-static void draw_uniform(const struct canvas *canvas, const struct panel *panel, double middle,
-                         double top)
-{
-    char name[LABEL_TEXT], value[UNIT_TEXT], text[LABEL_TEXT + UNIT_TEXT + 16];
-    field_text(panel->field, name, sizeof name);
-    multiple_text(panel->values.low, panel->unit, value, sizeof value);
-    snprintf(text, sizeof text, "%s: uniform, %s", name, value);
-    canvas_text(canvas, TEXT_LABEL, (struct text_place){middle, top + 14.0, 0.5, 2.0 * middle},
-                text);
-}
-
-static void draw_bar(const struct canvas *canvas, const struct panel *panel, double middle,
-                     double width, double top)
-{
-    const struct colour_scale *colours = &panel->scale;
-    char name[LABEL_TEXT];
-    field_text(panel->field, name, sizeof name);
-    if (panel->schlieren) {
-        char text[LABEL_TEXT + 32];
-        snprintf(text, sizeof text, "schlieren of %s", name);
-        canvas_text(canvas, TEXT_LABEL, (struct text_place){middle, top + 14.0, 0.5, width}, text);
-        return;
-    }
-    if (panel->uniform) {
-        draw_uniform(canvas, panel, middle, top);
-        return;
-    }
-    const double half = 0.5 * minimum(maximum(0.7 * width, 260.0), 480.0);
-    struct axis bar = {.range = colours->range,
-                       .logarithmic = colours->logarithmic,
-                       .start = middle - half,
-                       .end = middle + half};
-    axis_name(&bar, name, panel->unit, range_reach(bar.range));
-    axis_ticks(&bar, canvas);
-    draw_shades(canvas, &bar, top, colours);
-    if (panel->extremes.low < bar.range.low)
-        bar_end(canvas, colours, bar.range.low, bar.start - 1.0, top, -8.0);
-    if (panel->extremes.high > bar.range.high)
-        bar_end(canvas, colours, bar.range.high, bar.end + 1.0, top, 8.0);
-    axis_draw_below(canvas, &bar, top + BAR_THICKNESS);
-}
-
 /* Puts what RASTER shows onto the page, with its corner at (LEFT, TOP) in points. */
 static void put_raster(const struct canvas *canvas, const struct raster *raster, double left,
                        double top)
@@ -408,12 +326,17 @@ static struct error *draw_raster(const struct album *album, const struct picture
     struct error *error = scene_take(album, picture, panel, frame, &scene, outside);
     if (!raster->pixel && !error)
         error = out_of_memory_for("a picture");
-    if (!error && picture->view.perspective)
-        error = solid_draw(&scene, &picture->view, &sheet->projection, &colouring, album->threads,
-                           raster);
-    else if (!error)
-        error = section_draw(&scene, &picture->view, &sheet->projection, &colouring, album->threads,
-                             raster, steepest);
+    const struct drawing_of of = {&scene,
+                                  &picture->view,
+                                  &sheet->projection,
+                                  &colouring,
+                                  raster->width,
+                                  raster->height,
+                                  album->threads,
+                                  (float)(picture->view.dot * sheet->density)};
+    if (!error)
+        error = picture->view.perspective ? solid_draw(&of, raster)
+                                          : section_draw(&of, raster, steepest);
     free(scene.item);
     return error;
 }
@@ -455,8 +378,8 @@ static struct error *draw_panel(const struct canvas *canvas, const struct album 
         const double foot = sheet->head + sheet->box_height + BAR_GAP +
                             (picture->view.perspective ? 0.0 : AXIS_HEIGHT);
         if (!panel->category)
-            draw_bar(canvas, panel, left + sheet->box_left + 0.5 * sheet->box_width,
-                     sheet->box_width, foot);
+            colour_bar_draw(canvas, panel, left + sheet->box_left + 0.5 * sheet->box_width,
+                            sheet->box_width, foot);
     }
     free(raster.pixel);
     return error;

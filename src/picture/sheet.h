@@ -1,4 +1,4 @@
-/* The axes of a perspective. Private to the pictures. */
+/* The axes of a perspective, the bar of colours. Private to the pictures. */
 #ifndef BOLIDE_PICTURE_SHEET_H
 #define BOLIDE_PICTURE_SHEET_H
 
@@ -14,5 +14,11 @@ struct box_axes {
 /* The edges behind what is drawn, and ticks and names on three edges of the outline. */
 void box_axes_behind(const struct canvas *canvas, const struct box_axes *axes);
 void box_axes_before(const struct canvas *canvas, const struct box_axes *axes);
+
+/* The bar of PANEL about MIDDLE below TOP, on a picture of WIDTH. */
+enum { BAR_THICKNESS = 11 };
+struct panel;
+void colour_bar_draw(const struct canvas *canvas, const struct panel *panel, double middle,
+                     double width, double top);
 
 #endif

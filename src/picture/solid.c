@@ -28,12 +28,8 @@ struct sample {
 };
 
 struct drawing {
-    const struct scene *scene;
-    const struct view *view;
-    const struct projection *projection;
-    const struct colouring *colouring;
-    int width, height, threads;
-    float dot, size; /* smallest diameter, pixels; of the window, m */
+    struct drawing_of of;
+    float size; /* of the window, m */
     struct vector eye, away, right, top, light;
     struct mark *mark;
     struct row_bands bands;
@@ -44,25 +40,25 @@ struct drawing {
 
 static const struct scene_item *item_of(const struct drawing *d, int32_t mark)
 {
-    return &d->scene->item[mark % d->scene->count];
+    return drawing_item(&d->of, mark);
 }
 
 /* The ray of pixel (x, y): where it starts, and its direction, of which a step of one goes one
  * metre away. */
 static struct vector ray_start(const struct drawing *d, float x, float y)
 {
-    if (!d->view->parallel)
+    if (!d->of.view->parallel)
         return d->eye;
-    const float across = (x - (float)d->projection->x) / (float)d->projection->scale;
-    const float up = ((float)d->projection->y - y) / (float)d->projection->scale;
+    const float across = (x - (float)d->of.projection->x) / (float)d->of.projection->scale;
+    const float up = ((float)d->of.projection->y - y) / (float)d->of.projection->scale;
     return plus(d->eye, plus(times(d->right, across), times(d->top, up)));
 }
 static struct vector ray_direction(const struct drawing *d, float x, float y)
 {
-    if (d->view->parallel)
+    if (d->of.view->parallel)
         return d->away;
-    const float across = (x - (float)d->projection->x) / (float)d->projection->scale;
-    const float up = ((float)d->projection->y - y) / (float)d->projection->scale;
+    const float across = (x - (float)d->of.projection->x) / (float)d->of.projection->scale;
+    const float up = ((float)d->of.projection->y - y) / (float)d->of.projection->scale;
     return plus(d->away, plus(times(d->right, across), times(d->top, up)));
 }
 static struct vector place_of(const struct drawing *d, int x, int y, float depth)
@@ -87,43 +83,24 @@ bool view_project(const struct view *view, const struct projection *projection,
     return depth > 0.0;
 }
 
-static struct error *place_marks(struct drawing *d)
+static struct span place_mark(void *context, int64_t number, const double at[3])
 {
-    const int images = view_images(d->view);
-    const int64_t count = d->scene->count;
-    struct span *span = memory_allocate((size_t)(images * count) * sizeof *span + 1);
-    d->mark = memory_allocate((size_t)(images * count) * sizeof *d->mark + 1);
-    if (!span || !d->mark) {
-        free(span);
-        return out_of_memory_for("a picture");
-    }
-    for (int image = 0; image < images; image++) {
-        double sign[3];
-        view_image(d->view, image, sign);
-#pragma omp parallel for schedule(static) num_threads(d->threads)
-        for (int64_t i = 0; i < count; i++) {
-            const struct scene_item *item = &d->scene->item[i];
-            struct mark *mark = &d->mark[image * count + i];
-            double at[3], x, y;
-            view_reflect(d->view, sign, item->place, at);
-            const bool before = view_project(d->view, d->projection, at, &x, &y);
-            mark->place = vector_of(at);
-            mark->depth = dot(minus(mark->place, d->eye), d->away);
-            mark->x = (float)x;
-            mark->y = (float)y;
-            mark->metres = SPHERE * item->diameter;
-            mark->radius = (float)d->projection->scale * mark->metres;
-            mark->radius /= d->view->parallel ? 1.0f : mark->depth;
-            const float reach = maximum(mark->radius * DISC / SPHERE, 0.5f * d->dot) + 1.0f;
-            const bool seen = before && mark->depth > 2.0f * mark->metres &&
-                              mark->x + reach > 0.0f && mark->x - reach < (float)d->width;
-            span[image * count + i] =
-                seen ? (struct span){mark->y - reach, mark->y + reach} : (struct span){1.0f, 0.0f};
-        }
-    }
-    struct error *error = row_bands_make(span, images * count, d->height, &d->bands);
-    free(span);
-    return error;
+    const struct drawing *d = context;
+    const struct view *view = d->of.view;
+    struct mark *mark = &d->mark[number];
+    double x, y;
+    const bool before = view_project(view, d->of.projection, at, &x, &y);
+    mark->place = vector_of(at);
+    mark->depth = dot(minus(mark->place, d->eye), d->away);
+    mark->x = (float)x;
+    mark->y = (float)y;
+    mark->metres = SPHERE * item_of(d, (int32_t)number)->diameter;
+    mark->radius = (float)d->of.projection->scale * mark->metres;
+    mark->radius /= view->parallel ? 1.0f : mark->depth;
+    const float reach = maximum(mark->radius * DISC / SPHERE, 0.5f * d->of.dot) + 1.0f;
+    const bool seen = before && mark->depth > 2.0f * mark->metres && mark->x + reach > 0.0f &&
+                      mark->x - reach < (float)d->of.width;
+    return seen ? (struct span){mark->y - reach, mark->y + reach} : (struct span){1.0f, 0.0f};
 }
 
 /* Where the ray of a pixel that is outside of a cut corner's material leaves the corner: how much
@@ -133,8 +110,8 @@ static int leave_corner(const struct drawing *d, struct vector place, struct vec
 {
     int face = -1;
     *deeper = INFINITY;
-    for (int k = 0; k < d->view->cuts; k++) {
-        const struct half_space *cut = &d->view->cut[k];
+    for (int k = 0; k < d->of.view->cuts; k++) {
+        const struct half_space *cut = &d->of.view->cut[k];
         const float at = (&place.x)[cut->axis], rate = (float)cut->sign * (&ray.x)[cut->axis];
         const float inside = (float)cut->sign * at - (float)cut->offset;
         if (inside <= 0.0f)
@@ -157,14 +134,14 @@ static bool meet(const struct drawing *d, const struct mark *mark, int x, int y,
                  struct meeting *meeting)
 {
     const float column = (float)x + 0.5f, row = (float)y + 0.5f;
-    const float radius = maximum(mark->radius, 0.5f * d->dot);
+    const float radius = maximum(mark->radius, 0.5f * d->of.dot);
     const float dx = (column - mark->x) / radius, dy = (row - mark->y) / radius;
     const float distance = dx * dx + dy * dy, widest = DISC * DISC / (SPHERE * SPHERE);
-    if (distance >= (d->view->cuts ? widest : 1.0f))
+    if (distance >= (d->of.view->cuts ? widest : 1.0f))
         return false;
     *meeting = (struct meeting){mark->depth - mark->metres * sqrtf(maximum(1.0f - distance, 0.0f)),
                                 distance, -1};
-    if (!d->view->cuts)
+    if (!d->of.view->cuts)
         return true;
     const struct vector ray = ray_direction(d, column, row);
     struct vector place = plus(ray_start(d, column, row), times(ray, meeting->depth));
@@ -186,7 +163,7 @@ static bool meet(const struct drawing *d, const struct mark *mark, int x, int y,
 /* The radius that is drawn, in pixels and in metres. */
 static float drawn_radius(const struct drawing *d, const struct mark *mark)
 {
-    return maximum(mark->radius, 0.5f * d->dot);
+    return maximum(mark->radius, 0.5f * d->of.dot);
 }
 static float drawn_metres(const struct drawing *d, const struct mark *mark)
 {
@@ -195,9 +172,9 @@ static float drawn_metres(const struct drawing *d, const struct mark *mark)
 
 static struct pixel_box box_of(const struct drawing *d, const struct mark *mark, int band)
 {
-    const float widest = d->view->cuts ? DISC / SPHERE : 1.0f;
+    const float widest = d->of.view->cuts ? DISC / SPHERE : 1.0f;
     const float reach = drawn_radius(d, mark) * widest;
-    return row_bands_box(mark->x, mark->y, reach, band, d->width, d->height);
+    return row_bands_box(mark->x, mark->y, reach, band, d->of.width, d->of.height);
 }
 
 /* Of two faces that are equally deep, as all of a cut are, the nearer particle is seen. */
@@ -218,9 +195,9 @@ static void find_nearest(struct drawing *d, int band)
         const struct pixel_box box = box_of(d, mark, band);
         for (int y = box.top; y <= box.bottom; y++)
             for (int x = box.left; x <= box.right; x++) {
-                struct sample *sample = &d->sample[(int64_t)y * d->width + x];
+                struct sample *sample = &d->sample[(int64_t)y * d->of.width + x];
                 struct meeting meeting;
-                if (mark->depth - mark->metres > sample->depth && !d->view->cuts)
+                if (mark->depth - mark->metres > sample->depth && !d->of.view->cuts)
                     continue;
                 if (meet(d, mark, x, y, &meeting) && is_nearer(sample, &meeting, mark->metres))
                     *sample = (struct sample){.depth = meeting.depth,
@@ -233,8 +210,8 @@ static void find_nearest(struct drawing *d, int band)
 
 static void blend(struct drawing *d, int band)
 {
-    const int first = band * BAND_ROWS * d->width, end = (band + 1) * BAND_ROWS * d->width;
-    for (int p = first; p < end && p < d->width * d->height; p++)
+    const int first = band * BAND_ROWS * d->of.width, end = (band + 1) * BAND_ROWS * d->of.width;
+    for (int p = first; p < end && p < d->of.width * d->of.height; p++)
         d->sample[p].value = d->sample[p].weight = 0.0f;
     for (int64_t k = d->bands.begin[band]; k < d->bands.begin[band + 1]; k++) {
         const int32_t m = d->bands.item[k];
@@ -245,7 +222,7 @@ static void blend(struct drawing *d, int band)
             continue;
         for (int y = box.top; y <= box.bottom; y++)
             for (int x = box.left; x <= box.right; x++) {
-                struct sample *sample = &d->sample[(int64_t)y * d->width + x];
+                struct sample *sample = &d->sample[(int64_t)y * d->of.width + x];
                 struct meeting meeting;
                 if (sample->item < 0 || item_of(d, sample->item)->body != item->body ||
                     mark->depth - 2.0f * mark->metres > sample->depth ||
@@ -259,7 +236,7 @@ static void blend(struct drawing *d, int band)
                 sample->weight += weight;
             }
     }
-    for (int p = first; p < end && p < d->width * d->height; p++)
+    for (int p = first; p < end && p < d->of.width * d->of.height; p++)
         if (d->sample[p].item >= 0)
             d->sample[p].value = d->sample[p].weight > 0.0f
                                      ? d->sample[p].value / d->sample[p].weight
@@ -272,11 +249,11 @@ static bool is_sphere(const struct sample *sample) { return sample->item >= 0 &&
  * has the depths of spheres, and FAR elsewhere. */
 static float smoothed(const struct drawing *d, const float *surface, int x, int y, bool rows)
 {
-    const int64_t p = (int64_t)y * d->width + x, stride = rows ? d->width : 1;
+    const int64_t p = (int64_t)y * d->of.width + x, stride = rows ? d->of.width : 1;
     const struct mark *mark = &d->mark[d->sample[p].item];
     const int reach = (int)minimum(SMOOTH_MAX, 2.0f * drawn_radius(d, mark)),
               step = 1 + reach / SMOOTH_TAPS;
-    const int at = rows ? y : x, most = (rows ? d->height : d->width) - 1;
+    const int at = rows ? y : x, most = (rows ? d->of.height : d->of.width) - 1;
     const int before = at < reach ? at : reach, behind = most - at < reach ? most - at : reach;
     const float thin = 1.0f / (2.4f * drawn_metres(d, mark)), short_of = 1.0f / (float)(reach + 1);
     float sum = 0.0f, weights = 0.0f;
@@ -293,7 +270,7 @@ static float smoothed(const struct drawing *d, const float *surface, int x, int 
 
 static void smooth(struct drawing *d)
 {
-    const int64_t pixels = (int64_t)d->width * d->height;
+    const int64_t pixels = (int64_t)d->of.width * d->of.height;
     float *const plane[2] = {d->surface, d->scratch};
     for (int64_t p = 0; p < pixels; p++) {
         d->sample[p].smooth = d->sample[p].depth;
@@ -302,10 +279,10 @@ static void smooth(struct drawing *d)
     for (int round = 0; round < 4; round++) { /* the last one fills plane 0 */
         const float *surface = plane[round % 2];
         float *next = plane[1 - round % 2];
-#pragma omp parallel for schedule(dynamic, 16) num_threads(d->threads)
-        for (int y = 0; y < d->height; y++)
-            for (int x = 0; x < d->width; x++) {
-                const int64_t p = (int64_t)y * d->width + x;
+#pragma omp parallel for schedule(dynamic, 16) num_threads(d->of.threads)
+        for (int y = 0; y < d->of.height; y++)
+            for (int x = 0; x < d->of.width; x++) {
+                const int64_t p = (int64_t)y * d->of.width + x;
                 next[p] =
                     is_sphere(&d->sample[p]) ? smoothed(d, surface, x, y, round % 2) : surface[p];
             }
@@ -318,10 +295,10 @@ static void smooth(struct drawing *d)
 /* The slope of the surface from (x, y) to a neighbour on the page, the one that is less far. */
 static struct vector slope_at(const struct drawing *d, int x, int y, bool down)
 {
-    const int64_t p = (int64_t)y * d->width + x;
+    const int64_t p = (int64_t)y * d->of.width + x;
     const struct sample *sample = &d->sample[p];
-    const int at = down ? y : x, most = (down ? d->height : d->width) - 1;
-    const int64_t stride = down ? d->width : 1;
+    const int at = down ? y : x, most = (down ? d->of.height : d->of.width) - 1;
+    const int64_t stride = down ? d->of.width : 1;
     float jump[2] = {INFINITY, INFINITY};
     for (int side = 0; side < 2; side++) {
         const struct sample *other = &d->sample[p + (side ? stride : -stride)];
@@ -338,9 +315,9 @@ static struct vector slope_at(const struct drawing *d, int x, int y, bool down)
 
 static struct vector normal_at(const struct drawing *d, int x, int y)
 {
-    const struct sample *sample = &d->sample[(int64_t)y * d->width + x];
+    const struct sample *sample = &d->sample[(int64_t)y * d->of.width + x];
     if (sample->cut >= 0) {
-        const struct half_space *cut = &d->view->cut[(int)sample->cut];
+        const struct half_space *cut = &d->of.view->cut[(int)sample->cut];
         struct vector normal = {0.0f, 0.0f, 0.0f};
         (&normal.x)[cut->axis] = (float)cut->sign;
         return normal;
@@ -352,18 +329,18 @@ static struct vector normal_at(const struct drawing *d, int x, int y)
 /* How much of the surroundings of (x, y) is in front: 0 to 1. */
 static float occlusion_at(const struct drawing *d, int x, int y, struct vector normal)
 {
-    const struct sample *sample = &d->sample[(int64_t)y * d->width + x];
+    const struct sample *sample = &d->sample[(int64_t)y * d->of.width + x];
     const struct vector place = place_of(d, x, y, sample->smooth);
     const float reach = 0.035f * d->size;
     const float pixels =
-        (float)d->projection->scale * reach / (d->view->parallel ? 1.0f : sample->smooth);
+        (float)d->of.projection->scale * reach / (d->of.view->parallel ? 1.0f : sample->smooth);
     float sum = 0.0f;
     for (int j = 0; j < OCCLUSION_SAMPLES; j++) {
         const int column = x + (int)(d->around[j][0] * pixels);
         const int row = y + (int)(d->around[j][1] * pixels);
-        if (column < 0 || row < 0 || column >= d->width || row >= d->height)
+        if (column < 0 || row < 0 || column >= d->of.width || row >= d->of.height)
             continue;
-        const struct sample *other = &d->sample[(int64_t)row * d->width + column];
+        const struct sample *other = &d->sample[(int64_t)row * d->of.width + column];
         if (other->item < 0)
             continue;
         const struct vector off = minus(place_of(d, column, row, other->smooth), place);
@@ -379,16 +356,16 @@ static float occlusion_at(const struct drawing *d, int x, int y, struct vector n
 static float outline_at(const struct drawing *d, int x, int y)
 {
     static const int step[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-    const struct sample *sample = &d->sample[(int64_t)y * d->width + x];
+    const struct sample *sample = &d->sample[(int64_t)y * d->of.width + x];
     const struct mark *mark = &d->mark[sample->item];
     float dark = 0.0f;
-    if (!d->view->outlines || mark->radius < 1.5f * d->dot)
+    if (!d->of.view->outlines || mark->radius < 1.5f * d->of.dot)
         return 0.0f;
     for (int k = 0; k < 4; k++) {
         const int column = x + step[k][0], row = y + step[k][1];
-        if (column < 0 || row < 0 || column >= d->width || row >= d->height)
+        if (column < 0 || row < 0 || column >= d->of.width || row >= d->of.height)
             continue;
-        const struct sample *other = &d->sample[(int64_t)row * d->width + column];
+        const struct sample *other = &d->sample[(int64_t)row * d->of.width + column];
         if (other->item < 0 || other->smooth - sample->smooth > 5.0f * mark->metres)
             return 1.0f;
         if (item_of(d, other->item)->body != item_of(d, sample->item)->body)
@@ -399,8 +376,8 @@ static float outline_at(const struct drawing *d, int x, int y)
 
 static void paint(const struct drawing *d, int y, struct raster *raster)
 {
-    for (int x = 0; x < d->width; x++) {
-        const int64_t p = (int64_t)y * d->width + x;
+    for (int x = 0; x < d->of.width; x++) {
+        const int64_t p = (int64_t)y * d->of.width + x;
         const struct sample *sample = &d->sample[p];
         if (sample->item < 0)
             continue;
@@ -408,7 +385,7 @@ static void paint(const struct drawing *d, int y, struct raster *raster)
         const float lit = 0.42f + 0.58f * maximum(dot(normal, d->light), 0.0f);
         const float dark = minimum(1.6f * occlusion_at(d, x, y, normal), 0.75f);
         const float line = 1.0f - 0.6f * outline_at(d, x, y);
-        raster->pixel[p] = pixel_of(colouring_of(d->colouring, sample->value),
+        raster->pixel[p] = pixel_of(colouring_of(d->of.colouring, sample->value),
                                     (double)(lit * (1.0f - dark) * line));
     }
 }
@@ -421,7 +398,7 @@ static struct error *allocate(struct drawing *d)
         d->around[j][0] = cosf(angle) * radius;
         d->around[j][1] = sinf(angle) * radius;
     }
-    const size_t pixels = (size_t)d->width * (size_t)d->height;
+    const size_t pixels = (size_t)d->of.width * (size_t)d->of.height;
     d->sample = memory_allocate(pixels * sizeof *d->sample);
     d->scratch = memory_allocate(pixels * sizeof *d->scratch);
     d->surface = memory_allocate(pixels * sizeof *d->surface);
@@ -429,28 +406,24 @@ static struct error *allocate(struct drawing *d)
         return out_of_memory_for("a picture");
     for (size_t p = 0; p < pixels; p++)
         d->sample[p] = (struct sample){.depth = INFINITY, .item = -1, .cut = -1};
-    return place_marks(d);
+    d->mark = memory_allocate(
+        (size_t)(view_images(d->of.view) * d->of.scene->count) * sizeof *d->mark + 1);
+    return d->mark ? row_bands_make(&d->of, place_mark, d, &d->bands)
+                   : out_of_memory_for("a picture");
 }
 
 static void take_values(struct drawing *d)
 {
-    for (int64_t p = 0; p < (int64_t)d->width * d->height; p++)
+    for (int64_t p = 0; p < (int64_t)d->of.width * d->of.height; p++)
         if (d->sample[p].item >= 0)
             d->sample[p].value = item_of(d, d->sample[p].item)->value;
 }
 
-struct error *solid_draw(const struct scene *scene, const struct view *view,
-                         const struct projection *projection, const struct colouring *colouring,
-                         int threads, struct raster *raster)
+struct error *solid_draw(const struct drawing_of *of, struct raster *raster)
 {
-    struct drawing d = {.scene = scene,
-                        .view = view,
-                        .projection = projection,
-                        .colouring = colouring,
-                        .width = raster->width,
-                        .height = raster->height,
-                        .threads = threads,
-                        .dot = (float)(view->dot * projection->density),
+    const struct view *view = of->view;
+    const int threads = of->threads;
+    struct drawing d = {.of = *of,
                         .eye = vector_of(view->eye),
                         .away = times(vector_of(view->direction), -1.0f),
                         .right = vector_of(view->right),
@@ -464,7 +437,7 @@ struct error *solid_draw(const struct scene *scene, const struct view *view,
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
         for (int band = 0; band < d.bands.count; band++)
             find_nearest(&d, band);
-        if (colouring->scale) {
+        if (of->colouring->scale) {
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
             for (int band = 0; band < d.bands.count; band++)
                 blend(&d, band);
@@ -472,7 +445,7 @@ struct error *solid_draw(const struct scene *scene, const struct view *view,
             take_values(&d);
         smooth(&d);
 #pragma omp parallel for schedule(dynamic, 8) num_threads(threads)
-        for (int y = 0; y < d.height; y++)
+        for (int y = 0; y < d.of.height; y++)
             paint(&d, y, raster);
     }
     free(d.mark);
