@@ -222,6 +222,21 @@ static void read_places(struct reading *r, struct frame_group *group)
     free(point);
 }
 
+/* (m/rho)^(1/dimension), of snapshots without diameters; the dimension is that of the places. */
+static float *find_diameters(struct reading *r, const struct frame_group *group)
+{
+    float *diameter = read_column(r, "density", H5T_NATIVE_FLOAT, -1);
+    int dimension = 1;
+    for (int64_t i = 0; i < group->count && diameter; i++)
+        for (int axis = dimension; axis < 3; axis++)
+            if (group->position[i][axis] != group->position[0][axis])
+                dimension = axis + 1;
+    for (int64_t i = 0; i < group->count && diameter && group->mass; i++)
+        diameter[i] =
+            (float)pow((double)group->mass[i] / (double)diameter[i], 1.0 / (double)dimension);
+    return diameter;
+}
+
 static void read_sizes(struct reading *r, struct frame_group *group)
 {
     group->id = read_column(r, "id", H5T_NATIVE_UINT64, -1);
@@ -230,7 +245,9 @@ static void read_sizes(struct reading *r, struct frame_group *group)
     group->mass = components_of(r, "mass") ? read_column(r, "mass", H5T_NATIVE_FLOAT, -1)
                                            : read_column(r, "density", H5T_NATIVE_FLOAT, -1);
     if (!group->cell_dimension) {
-        group->diameter = read_column(r, "diameter", H5T_NATIVE_FLOAT, -1);
+        group->diameter = components_of(r, "diameter")
+                              ? read_column(r, "diameter", H5T_NATIVE_FLOAT, -1)
+                              : find_diameters(r, group);
         return;
     }
     group->diameter = memory_allocate((size_t)group->count * sizeof(float) + 1);

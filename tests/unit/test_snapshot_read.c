@@ -145,6 +145,32 @@ static void particles_come_back_in_the_order_of_their_ids(void **state)
     drop_simulation(simulation);
 }
 
+static void particles_without_diameters_get_those_of_their_volumes(void **state)
+{
+    (void)state;
+    static const char *const fields[] = {"density"};
+    char path[96];
+    snprintf(path, sizeof path, "%s/000000.vtkhdf", folder);
+    struct simulation *simulation = build_simulation(6);
+    const struct population population = simulation_population(simulation);
+    struct frame frame = {0};
+    int dimension = 1;
+    for (int i = 0; i < 6; i++)
+        for (int axis = dimension; axis < 3; axis++)
+            if (population.position[i][axis] != population.position[0][axis])
+                dimension = axis + 1;
+    assert_null(snapshot_write(path, simulation, &population));
+    assert_null(snapshot_read(path, fields, COUNT_OF(fields), &frame));
+    const struct frame_group *group = &frame.group[0];
+    for (int64_t i = 0; i < group->count; i++) {
+        const double volume = (double)group->mass[i] / (double)group->field[0].value[i];
+        const double wanted = pow(volume, 1.0 / dimension);
+        assert_true(fabs((double)group->diameter[i] / wanted - 1.0) < 1e-5);
+    }
+    frame_free(&frame);
+    drop_simulation(simulation);
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, make_folder, remove_folder)
 
 int main(void)
@@ -152,6 +178,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(cells_have_their_centres_and_blocked_ones_are_left_out),
         IN_FOLDER(particles_come_back_in_the_order_of_their_ids),
+        IN_FOLDER(particles_without_diameters_get_those_of_their_volumes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
