@@ -62,7 +62,7 @@ void main(){
     const FS = `#version 300 es
 precision highp float;
 in float u; flat in float bo; in vec3 c; flat in float r; flat in float px;
-uniform mat4 view, proj; uniform sampler2D ramp; uniform float cat, ortho; uniform vec4 cut[3];
+uniform mat4 view, proj; uniform sampler2D ramp; uniform float cat, ortho, plain; uniform vec4 cut[3];
   uniform int cuts;
 layout(location=0) out vec4 col;
 void main(){
@@ -78,7 +78,7 @@ void main(){
   vec4 s=proj*vec4(p,1); gl_FragDepth=.5*s.z/s.w+.5;
   vec3 base=cat>0.0?texelFetch(ramp,ivec2(int(bo*255.0+.5)%8,1),0).rgb:
     texture(ramp,vec2(clamp(u,0.0,1.0)*.996+.002,.25)).rgb;
-  float l=px<2.0?.85:.45+.55*max(0.0,dot(n,normalize(vec3(-.5,.7,1))));
+  float l=plain>0.0?1.0:px<2.0?.85:.45+.55*max(0.0,dot(n,normalize(vec3(-.5,.7,1))));
   col=vec4(base*l,1);
 }`;
     const QV = `#version 300 es
@@ -170,7 +170,7 @@ void main(){ ivec2 p=ivec2(gl_FragCoord.xy), m=textureSize(depth,0)-1;
     }
     // ------------------------------------------------------------------ state and controls
     const S = Object.assign({
-        post : true,
+        post : !M.flat,
         frame : T - 1,
         field : -1,
         low : 0,
@@ -182,7 +182,7 @@ void main(){ ivec2 p=ivec2(gl_FragCoord.xy), m=textureSize(depth,0)-1;
         cut : M.cut,
         az : M.flat ? -90 : 30,
         el : M.flat ? 0 : 25,
-        dist : M.flat ? 1.55 : 1.9,
+        dist : M.flat ? 0 : 1.9, // 0: all fits
         at : null,
         min : 1.6,
         shade : 60
@@ -211,7 +211,13 @@ void main(){ ivec2 p=ivec2(gl_FragCoord.xy), m=textureSize(depth,0)-1;
               return a.map(x => x / l);
           };
     let cam;
+    // how far away the eye is from what just fits, in units of size()
+    function fit(aspect) {
+        const [l, u] = box(), tall = Math.max(u[1] - l[1], (u[0] - l[0]) / aspect);
+        return 1.25 * tall / (2 * Math.tan(15 * Math.PI / 180) * size());
+    }
     function camera(w, h) {
+        S.dist = S.dist || fit(w / h);
         const [l, u] = box(), at = S.at || l.map((x, i) => (x + u[i]) / 2),
                   e = S.el * Math.PI / 180, z = S.az * Math.PI / 180, up = M.up,
                   ax = M.flat ? [ 1, 0, 0 ]
@@ -283,7 +289,9 @@ void main(){ ivec2 p=ivec2(gl_FragCoord.xy), m=textureSize(depth,0)-1;
         gl.uniform3fv(U('lo'), M.lo);
         gl.uniform3fv(U('mat'), M.at);
         gl.uniform3fv(U('span'), M.span);
-        gl.uniform1f(U('rmax'), M.rmax);
+        // in the plane neighbours touch, and nothing has a shade
+        gl.uniform1f(U('rmax'), M.rmax * (M.flat ? 1.3 : 1));
+        gl.uniform1f(U('plain'), +M.flat);
         gl.uniform1f(U('minpx'), S.min * r);
         gl.uniform1f(U('focal'), cam.focal);
         gl.uniform1f(U('ortho'), S.ortho ? cam.d : 0);

@@ -88,7 +88,10 @@ struct error *scene_take(const struct album *album, const struct picture *pictur
             if (!picture_has_body(album, picture->input, group->body[i]) ||
                 !is_in_section(view, group->position[i], group->diameter[i], cell))
                 continue;
-            *outside += is_outside(view, group->position[i]);
+            const bool out = is_outside(view, group->position[i]);
+            *outside += out;
+            if (out && view->perspective) /* it would hang beside the box */
+                continue;
             struct scene_item *item = &scene->item[scene->count++];
             *item = (struct scene_item){.diameter = group->diameter[i],
                                         .value = value_of(panel, group, field, i),

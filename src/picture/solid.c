@@ -381,6 +381,11 @@ static void paint(const struct drawing *d, int y, struct raster *raster)
         const struct sample *sample = &d->sample[p];
         if (sample->item < 0)
             continue;
+        /* what is no more than a dot has no faces */
+        if (d->mark[sample->item].radius <= 0.5f * d->of.dot) {
+            raster->pixel[p] = pixel_of(colouring_of(d->of.colouring, sample->value), 0.95);
+            continue;
+        }
         const struct vector normal = normal_at(d, x, y);
         const float lit = 0.42f + 0.58f * maximum(dot(normal, d->light), 0.0f);
         const float dark = minimum(1.6f * occlusion_at(d, x, y, normal), 0.75f);
