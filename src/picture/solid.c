@@ -374,6 +374,28 @@ static float outline_at(const struct drawing *d, int x, int y)
     return dark;
 }
 
+/* Whether (x, y) shows a particle that is no more than a dot and no part of a surface: most of what
+ * is around it is empty or far behind. It has no faces. */
+static bool is_lone_dot(const struct drawing *d, int x, int y)
+{
+    static const int step[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    const struct sample *sample = &d->sample[(int64_t)y * d->of.width + x];
+    const struct mark *mark = &d->mark[sample->item];
+    const int off = 1 + (int)ceilf(d->of.dot);
+    int alone = 0;
+    if (mark->radius > 0.5f * d->of.dot || sample->cut >= 0)
+        return false;
+    for (int k = 0; k < 4; k++) {
+        const int column = x + off * step[k][0], row = y + off * step[k][1];
+        const bool inside = column >= 0 && row >= 0 && column < d->of.width && row < d->of.height;
+        const struct sample *other =
+            inside ? &d->sample[(int64_t)row * d->of.width + column] : NULL;
+        alone += !other || other->item < 0 ||
+                 fabsf(other->depth - sample->depth) > 6.0f * drawn_metres(d, mark);
+    }
+    return alone >= 2;
+}
+
 static void paint(const struct drawing *d, int y, struct raster *raster)
 {
     for (int x = 0; x < d->of.width; x++) {
@@ -381,8 +403,7 @@ static void paint(const struct drawing *d, int y, struct raster *raster)
         const struct sample *sample = &d->sample[p];
         if (sample->item < 0)
             continue;
-        /* what is no more than a dot has no faces */
-        if (d->mark[sample->item].radius <= 0.5f * d->of.dot) {
+        if (is_lone_dot(d, x, y)) {
             raster->pixel[p] = pixel_of(colouring_of(d->of.colouring, sample->value), 0.95);
             continue;
         }
