@@ -8,6 +8,8 @@
 #include "picture/scene.h"
 
 static const float BLEND = 0.8f, EDGE = 0.55f;
+/* Particles of few pixels are squares: the rims of discs would be ragged. */
+static const float FEW = 6.0f;
 /* Cells lie behind particles. */
 static const float CELL_DEPTH = 16.0f;
 
@@ -81,7 +83,7 @@ static void find_nearest(struct drawing *d, int band)
     for (int64_t k = d->bands.begin[band]; k < d->bands.begin[band + 1]; k++) {
         const int32_t m = d->bands.item[k];
         const struct mark *mark = &d->mark[m];
-        const bool cell = item_of(d, m)->cell;
+        const bool cell = item_of(d, m)->cell, square_shaped = cell || mark->diameter < FEW;
         const float reach = reach_of(d, mark, cell), per_square = 1.0f / (reach * reach);
         const struct pixel_box box =
             row_bands_box(mark->x, mark->y, reach, band, d->of.width, d->of.height);
@@ -89,8 +91,8 @@ static void find_nearest(struct drawing *d, int band)
             for (int x = box.left; x <= box.right; x++) {
                 const float dx = fabsf((float)x + 0.5f - mark->x),
                             dy = fabsf((float)y + 0.5f - mark->y);
-                const float off = cell ? maximum(dx, dy) : dx * dx + dy * dy;
-                if (off > (cell ? reach * 1.001f : reach * reach))
+                const float off = dx * dx + dy * dy;
+                if (square_shaped ? maximum(dx, dy) > reach * 1.001f : off > reach * reach)
                     continue;
                 /* in units of the reach, squared */
                 const float distance = cell ? CELL_DEPTH : off * per_square;
@@ -185,6 +187,14 @@ static struct error *find_distances(struct drawing *d)
     return failed ? out_of_memory_for("a picture") : NULL;
 }
 
+/* Whether pixel (x, y) is not farther from MARK than a free surface is. */
+static bool is_at_surface(const struct mark *mark, int x, int y)
+{
+    const float dx = fabsf((float)x + 0.5f - mark->x), dy = fabsf((float)y + 0.5f - mark->y);
+    const float edge = EDGE * mark->diameter;
+    return mark->diameter < FEW ? maximum(dx, dy) <= edge : dx * dx + dy * dy <= edge * edge;
+}
+
 static void find_filled(struct drawing *d, int band)
 {
     const int end = (band + 1) * BAND_ROWS;
@@ -195,9 +205,8 @@ static void find_filled(struct drawing *d, int band)
             if (m < 0)
                 continue;
             const float diameter = d->mark[m].diameter;
-            const float reach = reach_of(d, &d->mark[m], false);
             d->filled[p] = d->depth[p] >= CELL_DEPTH || d->fill * diameter < 0.5f * d->of.dot ||
-                           d->depth[p] * reach * reach <= EDGE * EDGE * diameter * diameter ||
+                           is_at_surface(&d->mark[m], x, y) ||
                            (float)d->empty[p] > square((d->fill - EDGE) * diameter);
         }
 }
