@@ -20,7 +20,7 @@ struct mark {
 
 struct drawing {
     struct drawing_of of;
-    float fill; /* see above */
+    float fill, usual; /* see above; the largest diameter at the start, pixels */
     struct mark *mark;
     struct row_bands bands;
     float *depth, *value; /* of each pixel */
@@ -35,10 +35,17 @@ static const struct scene_item *item_of(const struct drawing *d, int32_t mark)
     return drawing_item(&d->of, mark);
 }
 
+/* Diameters up to which a particle fills; what has come apart is not stretched. */
+static float fill_of(const struct drawing *d, const struct mark *mark)
+{
+    return mark->diameter > 1.25f * d->usual ? BLEND : d->fill;
+}
+
 /* How far from its middle an item colours pixels. */
 static float reach_of(const struct drawing *d, const struct mark *mark, bool cell)
 {
-    return cell ? 0.5f * mark->diameter : maximum(d->fill * mark->diameter, 0.5f * d->of.dot);
+    return cell ? 0.5f * mark->diameter
+                : maximum(fill_of(d, mark) * mark->diameter, 0.5f * d->of.dot);
 }
 
 static struct span place_mark(void *context, int64_t number, const double at[3])
@@ -204,10 +211,10 @@ static void find_filled(struct drawing *d, int band)
             const int32_t m = d->nearest[p];
             if (m < 0)
                 continue;
-            const float diameter = d->mark[m].diameter;
-            d->filled[p] = d->depth[p] >= CELL_DEPTH || d->fill * diameter < 0.5f * d->of.dot ||
+            const float diameter = d->mark[m].diameter, fill = fill_of(d, &d->mark[m]);
+            d->filled[p] = d->depth[p] >= CELL_DEPTH || fill * diameter < 0.5f * d->of.dot ||
                            is_at_surface(&d->mark[m], x, y) ||
-                           (float)d->empty[p] > square((d->fill - EDGE) * diameter);
+                           (float)d->empty[p] > square((fill - EDGE) * diameter);
         }
 }
 
@@ -402,7 +409,9 @@ static struct error *find_values(struct drawing *d)
 
 struct error *section_draw(const struct drawing_of *of, struct raster *raster, double *steepest)
 {
-    struct drawing d = {.of = *of, .fill = (float)of->view->fill};
+    struct drawing d = {.of = *of,
+                        .fill = (float)of->view->fill,
+                        .usual = (float)(of->projection->scale * of->view->diameter)};
     const int threads = of->threads;
     struct error *error = allocate(&d);
     if (!error) {
