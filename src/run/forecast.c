@@ -17,12 +17,13 @@ static double members_of(const struct estimate *estimate)
     return (double)estimate->particles + estimate->cells;
 }
 
-/* Seconds of output a member and a time; and those of a picture, or the report, whatever is in it.
- * Measured on
- * runs of the examples, SPH, MPM and gas alike within a factor of two. */
+/* Seconds of output a member and a time; those of a picture, by dimension, a member and whatever is
+ * in it; those of the report. Measured on runs of the examples, SPH, MPM and gas alike within a
+ * factor of two. */
 static const double SNAPSHOT_SECONDS = 7e-7, CHECKPOINT_SECONDS = 7e-7, ROW_SECONDS = 1e-7,
-                    PROFILE_SECONDS = 1e-7, PICTURE_SECONDS = 3e-6, PAGE_SECONDS = 0.1,
-                    PROBE_SECONDS = 5e-9, PROBE_ROW_SECONDS = 2e-6;
+                    PROFILE_SECONDS = 1e-7, PAGE_SECONDS = 0.1, PROBE_SECONDS = 5e-9,
+                    PROBE_ROW_SECONDS = 2e-6;
+static const double PICTURE_SECONDS[] = {3e-7, 6e-7, 3e-6}, SHEET_SECONDS[] = {0.01, 0.03, 0.15};
 
 /* How many times an output with INTERVAL (NAN: none but the first and the last) is due. */
 static double times_of(double interval, double until)
@@ -51,12 +52,15 @@ double forecast_output(const struct simulation_case *input, const struct estimat
     const double snapshots = minimum(forecast->steps + 1.0, times_of(output->every, until));
     const double history = isnan(output->history) ? 0.01 * until : output->history;
     const double rows = minimum(forecast->steps + 1.0, times_of(history, until));
+    /* without the key one, of the bodies */
+    const int pictures = output->pictures.names ? output->pictures.count : input->dimension > 1;
     const double each = (output->snapshots ? SNAPSHOT_SECONDS : 0.0) +
                         PROFILE_SECONDS * input->profiles.count +
-                        PICTURE_SECONDS * output->pictures.count;
+                        PICTURE_SECONDS[input->dimension - 1] * pictures;
     const double checkpoints =
         1.0 + (output->checkpoint > 0.0 ? forecast->seconds / output->checkpoint : 0.0);
-    return PAGE_SECONDS + snapshots * (each * members + PAGE_SECONDS * output->pictures.count) +
+    return PAGE_SECONDS +
+           snapshots * (each * members + SHEET_SECONDS[input->dimension - 1] * pictures) +
            rows * ROW_SECONDS * members + checkpoints * CHECKPOINT_SECONDS * members +
            seconds_of_probes(input, members, forecast->steps);
 }
