@@ -385,6 +385,20 @@ static struct error *put_page(struct comparison *c)
     return error;
 }
 
+/* Removes what has been begun. */
+static void drop_files(const struct comparison *c, const char *path, const char *table)
+{
+    char *beside;
+    if (c->page.file)
+        fclose(c->page.file);
+    if (c->table)
+        fclose(c->table);
+    if (path && c->page.file && !file_clear_beside(path, &beside))
+        free(beside);
+    if (table && c->table && !file_clear_beside(table, &beside))
+        free(beside);
+}
+
 struct error *compare_write(const struct compare_request *request)
 {
     struct comparison c = {.request = request, .page = {.folder = request->output}};
@@ -404,6 +418,8 @@ struct error *compare_write(const struct compare_request *request)
     }
     if (!error)
         error = error_join(file_end(path, c.page.file), file_end(table, c.table));
+    else
+        drop_files(&c, path, table);
     for (int k = 0; k < request->data; k++)
         free(c.data[k].time);
     free(path);

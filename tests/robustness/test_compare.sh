@@ -20,9 +20,13 @@ run: {until: 1 us}
 output: {pictures: []}
 probes: {gauge: {tracer: [2 mm], fields: [pressure, velocity]}}
 END
-rm -rf a b compare
+rm -rf a b compare bare none
 "$BOLIDE" run plate.yaml --output a >a.log 2>&1 || fail "$(tail -n 3 a.log)"
 "$BOLIDE" run plate.yaml --set let.speed=500m/s --output b >b.log 2>&1 || fail "$(tail -n 3 b.log)"
+# A comparison that fails leaves no file.
+cp -r a bare && rm -rf bare/probes
+"$BOLIDE" compare bare --output none >none.log 2>&1
+[ $? = 2 ] && [ -z "$(ls -A none)" ] || fail "files of a comparison that failed: $(ls -A none) $(cat none.log)"
 # What run a has, 20 ns later, in other units.
 python3 - <<'PYTHON'
 import csv
