@@ -128,7 +128,8 @@ static const struct answer answers[] = {
      "tasks/restart.md"},
     {" film movie video animation animate gif ",
      "bolide film FOLDER [NAME] joins the frames of a picture to an mp4 with ffmpeg, or to an\n"
-     "animated PNG. report.html has a player of them, and a viewer (view.html).",
+     "animated PNG; --size 1280x720 sets its size. report.html has a player of them, and a\n"
+     "viewer (view.html).",
      "tasks/results.md"},
     {" paraview vtk vtkhdf visit ovito python h5py hdf5 csv postprocess postprocessing plot ",
      "Snapshots are VTKHDF files: open snapshots.vtkhdf.series in ParaView, or single files\n"
@@ -156,6 +157,11 @@ static const struct answer answers[] = {
      "shows a plane. Keys: direction, up, cut, plane, slab, window. `bolide picture FOLDER` draws\n"
      "from the snapshots: --set pictures.body.view=section --set pictures.body.plane.x=2mm.",
      "case.md"},
+    {" map maps peak.map arrival.map impulse.map maximum.over.time peak.field ",
+     "`output: {maps: {top: {peak: pressure}}}` keeps what a field has been at each particle or\n"
+     "cell: `peak`, `arrival: {field: pressure, above: 1 MPa}`, `impulse`. Each is a field for\n"
+     "pictures, probes and snapshots.",
+     "blast.md"},
     {" schlieren shadowgraph density.gradient ",
      "A field of pictures: `pictures: [schlieren]`, of the density; `schlieren: {field: pressure,\n"
      "strength: 20}` in a picture changes it.",
