@@ -41,6 +41,13 @@ BOLIDE_INLINE bool material_burns(const struct material *material)
     return !burn_is_instant(&material->burn);
 }
 
+/* Whether it is a solid or a liquid: neither a gas nor an explosive without strength. */
+BOLIDE_INLINE bool material_is_condensed(const struct material *material)
+{
+    return material_has_strength(material) ||
+           !(material_burns(material) || eos_traits(&material->eos).gas);
+}
+
 /* Whether it is an explosive that a detonation of the case lights. */
 BOLIDE_INLINE bool material_is_lit(const struct material *material)
 {

@@ -110,12 +110,15 @@ struct error *mpm_note_bodies(struct mpm *mpm, const struct mpm_parameters *give
     mpm->gauge = memory_allocate((size_t)simulation->problem->materials * sizeof *mpm->gauge);
     mpm->reaction = memory_allocate((size_t)simulation->problem->materials * sizeof *mpm->reaction);
     mpm->courant = memory_allocate((size_t)simulation->problem->materials * sizeof *mpm->courant);
-    if (!mpm->half_size || !mpm->gauge || !mpm->reaction || !mpm->courant)
+    mpm->balances_of =
+        memory_allocate((size_t)simulation->problem->materials * sizeof *mpm->balances_of);
+    if (!mpm->half_size || !mpm->gauge || !mpm->reaction || !mpm->courant || !mpm->balances_of)
         return out_of_memory();
     struct error *error = NULL;
     for (int m = 0; m < simulation->problem->materials; m++) {
         const struct material *material = &simulation->problem->material[m];
         mpm->reaction[m] = material_reaction_heat(material);
+        mpm->balances_of[m] = mpm_balances(material);
         mpm->courant[m] = mpm_courant_beside_gas(given, !material_has_strength(material));
         if (!material_has_strength(material))
             mpm->gauge[m] = mpm->parameters.gauge_pressure;

@@ -93,6 +93,7 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
     TRY(error_join(mpm_note_bodies(mpm, parameters, simulation), mpm_find_planes(mpm, simulation)));
     TRY(mpm_share_layers(mpm, simulation));
     start_layers(mpm, simulation);
+    mpm_note_mixtures(mpm, simulation);
     mpm_note_surfaces(mpm);
     struct field_declaration fields[POINT_HISTORY + MPM_FIELDS];
     const struct field_needs needs = needs_of(&mpm->parameters);
@@ -146,6 +147,8 @@ static void mpm_destroy(void *solver)
     free(mpm->gauge);
     free(mpm->reaction);
     free(mpm->courant);
+    free(mpm->balances_of);
+    free(mpm->given);
     free(mpm->layer_of_body);
     free(mpm->layer_at_rest);
     free(mpm->block);

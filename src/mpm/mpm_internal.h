@@ -51,6 +51,7 @@ struct layer {
     int32_t walls;
     int64_t wall_capacity;
     bool *meets;   /* of each block of nodes: another layer has it too */
+    bool balances; /* whether several of its materials balance their pressures */
     bool *shocked; /* and whether it contains a shock, see mixing.c */
     int64_t meets_capacity, shocked_capacity;
 };
@@ -76,6 +77,7 @@ struct mpm {
     double *gauge;     /* of each material, Pa */
     double *reaction;  /* heat of each, J/kg */
     double *courant;   /* of each, where the step is limited by nodes */
+    bool *balances_of; /* each, its pressure with that of others, see balance.c */
     double least_mass; /* of a node whose velocity counts in strain, kg */
     int64_t plane[3][2];
     bool has_plane[3][2]; /* node index of the low and the high wall across each axis */
@@ -88,8 +90,11 @@ struct mpm {
     double **rate; /* of the particles of a bin, one a thread */
     int threads;
     int64_t rate_capacity;
-    double limit, limit_before;        /* of this step, and of the one before; 0 for none yet */
-    bool shocks;                       /* anywhere, on any rank */
+    double limit, limit_before; /* of this step, and of the one before; 0 for none yet */
+    bool shocks;                /* anywhere, on any rank */
+    bool balances;              /* pressures, in this step */
+    double (*given)[2];         /* then, to particles: volume, m^3, and energy, J */
+    int64_t given_capacity;
     bool limits_by_nodes;              /* the step, see limit.c */
     struct halo halo;                  /* of several ranks only */
     const struct mpm_outside *outside; /* NULL: nothing */
@@ -225,6 +230,8 @@ void mpm_node_index(int dimension, const int64_t corner[3], int k, int64_t at[3]
 void mpm_fold_vectors(const struct mpm *mpm, struct layer *layer, const struct grid_field *field);
 /* The same for what nodes have while shocks are mixed. */
 void mpm_fold_heat(const struct mpm *mpm, struct layer *layer);
+/* The same for what nodes have while pressures balance. */
+void mpm_fold_balance(const struct mpm *mpm, struct layer *layer);
 /* Books that a wall pushes particles by PUSH through a node; on the axis it is not the wall that
  * pushes along x. */
 void mpm_book_wall(const struct mpm *mpm, struct simulation *simulation,
@@ -235,6 +242,13 @@ bool mpm_find_shocks(const struct mpm *mpm, const struct simulation *simulation,
 /* Collective: mixing in shocks in a step of DT, see mixing.c. Nodes have their sums; those of
  * the second field are lost. */
 void mpm_mix_shocks(struct mpm *mpm, struct simulation *simulation, double dt);
+/* Whether the pressure of MATERIAL balances with that of others, and in which layers any does. */
+bool mpm_balances(const struct material *material);
+void mpm_note_mixtures(struct mpm *mpm, const struct simulation *simulation);
+/* Collective: what the balance of pressures gives particles in a step of DT, see balance.c; the
+ * sums of the second field are lost. Then they take it. */
+struct error *mpm_balance_pressures(struct mpm *mpm, struct simulation *simulation, double dt);
+void mpm_take_given(const struct mpm *mpm, const struct simulation *simulation);
 /* The step of the nodes (2-13), and what walls push in it. */
 void mpm_advance_nodes(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
                        double dt);

@@ -167,17 +167,16 @@ static struct error *collect_walls(const struct mpm *mpm, struct layer *layer, b
 
 /* Which numbers of a node walls fold: scalars, and where vectors begin. */
 struct folded {
-    int scalars, scalar[HEAT_NUMBERS], vectors, vector[2];
+    int scalars, scalar[BALANCE_NUMBERS], vectors, vector[2];
 };
 
-static const struct folded folded_main = {2,
-                                          {NODE_MASS, NODE_MIXING},
-                                          2,
-                                          {NODE_MOMENTUM, NODE_FORCE}},
-                           folded_vector = {.vectors = 1},
-                           folded_back = {.scalars = 1, .scalar = {BACK_DIVERGENCE}, .vectors = 1},
-                           folded_heat = {.scalars = HEAT_NUMBERS,
-                                          .scalar = {HEAT_ENERGY, HEAT_NUMBER, HEAT_SQUARE}};
+static const struct folded
+    folded_main = {2, {NODE_MASS, NODE_MIXING}, 2, {NODE_MOMENTUM, NODE_FORCE}},
+    folded_vector = {.vectors = 1},
+    folded_back = {.scalars = 1, .scalar = {BACK_DIVERGENCE}, .vectors = 1},
+    folded_heat = {.scalars = HEAT_NUMBERS, .scalar = {HEAT_ENERGY, HEAT_NUMBER, HEAT_SQUARE}},
+    folded_balance = {.scalars = BALANCE_NUMBERS,
+                      .scalar = {BALANCE_PRESSURE, BALANCE_SUM, BALANCE_NUMBER, BALANCE_SQUARE}};
 
 /* Adds what a node behind a wall has to the node whose image it is, and makes it equal to that. */
 static void fold_onto(double *node, double *onto, int axis, const struct folded *folded)
@@ -282,6 +281,11 @@ void mpm_fold_vectors(const struct mpm *mpm, struct layer *layer, const struct g
 void mpm_fold_heat(const struct mpm *mpm, struct layer *layer)
 {
     fold(mpm, layer, &layer->back, &folded_heat);
+}
+
+void mpm_fold_balance(const struct mpm *mpm, struct layer *layer)
+{
+    fold(mpm, layer, &layer->back, &folded_balance);
 }
 
 void mpm_add_forces(const struct mpm *mpm, const struct simulation *simulation, struct layer *layer)

@@ -34,7 +34,8 @@ BOLIDE_INLINE void point_advance(const struct point_loop *loop, const struct mat
     for (int c = 0; c < RATES; c++)
         rate[c] = loop->rate[(size_t)c * loop->rate_stride + (size_t)k];
     const bool solid = material_has_strength(material);
-    const double filtered = point_unresolved(loop, solid, rate[RATE_UNRESOLVED], loop->sound[i]),
+    const double filtered = point_unresolved(loop, point_filter(material), rate[RATE_UNRESOLVED],
+                                             loop->sound[i]),
                  divergence = rate[0] + rate[1] + rate[2] - filtered;
     motion.dt = loop->dt;
     motion.time = loop->time;
@@ -107,11 +108,11 @@ BOLIDE_INLINE void points_load(const struct point_loop *loop, const int32_t *lis
     }
 }
 
-/* What a batch has beside its states: whether it has strength; the new viscosity, and how much of a
- * shock a particle is in. */
+/* What a batch has beside its states: whether it has strength; point_filter(); the new
+ * viscosity, and how much of a shock a particle is in. */
 struct batch_flow {
     bool solid;
-    double viscosity[BATCH], shock[BATCH];
+    double filter, viscosity[BATCH], shock[BATCH];
 };
 
 /* What the rates do to density and viscosity. UNRESOLVED is what nodes do not resolve of the
@@ -121,7 +122,7 @@ BOLIDE_INLINE void points_start(const struct point_loop *loop, struct batch *b,
 {
     double before[BATCH], divergence[BATCH];
     for (int k = 0; k < b->count; k++) {
-        const double filtered = point_unresolved(loop, of->solid, unresolved[k], b->sound_long[k]);
+        const double filtered = point_unresolved(loop, of->filter, unresolved[k], b->sound_long[k]);
         divergence[k] =
             b->strain_rate[0][k] + b->strain_rate[1][k] + b->strain_rate[2][k] - filtered;
         b->new_density[k] = b->density[k] / (1.0 + b->dt * divergence[k]); /* (2-20) */

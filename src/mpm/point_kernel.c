@@ -12,6 +12,7 @@ ISA_KERNEL(bool, point_loop_run, const struct point_loop *loop, const struct mat
         struct batch batch;
         struct batch_flow flow;
         flow.solid = material_has_strength(material);
+        flow.filter = point_filter(material);
         points_load(loop, list + first, loop->rate + first, count, &batch);
         points_start(loop, &batch, loop->rate + first + (size_t)RATE_UNRESOLVED * loop->rate_stride,
                      &flow);

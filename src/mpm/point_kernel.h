@@ -3,9 +3,7 @@
 #ifndef BOLIDE_MPM_POINT_KERNEL_H
 #define BOLIDE_MPM_POINT_KERNEL_H
 
-#include "material/point.h"
-
-struct material;
+#include "material/material.h"
 
 /* The fields of the particles, and their rates: component c of the k-th of the bin is rate[c *
  * rate_stride + k], as transfer.h has them.
@@ -43,15 +41,23 @@ BOLIDE_INLINE struct sym3 jaumann_turn(struct sym3 s, struct vec3 angle)
     return r;
 }
 
-/* What is filtered of W, what nodes do not resolve of the divergence: all of it from h |w| = 0.001
- * c on, as behind shocks, and in proportion to itself below, so that what is elastic rings on. In
- * fluids nothing: there is no deviator that the overshoots of a shock spoil, and at the edge of a
- * gas that expands into nothing few particles share a node. */
-BOLIDE_INLINE double point_unresolved(const struct point_loop *loop, bool solid, double w,
+/* The h |w|/c from which on all of w, what nodes do not resolve of the divergence, is filtered in
+ * MATERIAL, as behind shocks; below it is so in proportion, so that what is elastic rings on. Of
+ * gases and explosives without strength nothing is: at the edge of a gas that expands into nothing
+ * few particles share a node, and a detonation would lose its peak. */
+BOLIDE_INLINE double point_filter(const struct material *material)
+{
+    const double solid = 1e-3, liquid = 1e-2;
+    return material_has_strength(material)   ? solid
+           : material_is_condensed(material) ? liquid
+                                             : INFINITY;
+}
+
+/* What is filtered of W from FULL, point_filter(), on. */
+BOLIDE_INLINE double point_unresolved(const struct point_loop *loop, double full, double w,
                                       double sound)
 {
-    const double full = 1e-3;
-    return solid ? w * minimum(1.0, loop->edge * fabs(w) / (full * sound)) : 0.0;
+    return w * minimum(1.0, loop->edge * fabs(w) / (full * sound));
 }
 
 /* What the viscosity of a particle follows from: whether it is a solid or an explosive; its new

@@ -54,6 +54,7 @@ struct transfer mpm_transfer_of(const struct mpm *mpm, const struct simulation *
                              .burnt = p->history[HISTORY_burnt],
                              .reaction = mpm->reaction,
                              .courant = mpm->courant,
+                             .balances = mpm->balances_of,
                              .ambient = fields.ambient};
 }
 
@@ -349,6 +350,7 @@ struct error *mpm_advance(void *solver, struct simulation *simulation, double dt
     mpm->limit_before = mpm->limit;
     mpm_book_gravity(mpm, simulation, dt, true);
     mpm_mix_shocks(mpm, simulation, dt);
+    TRY(mpm_balance_pressures(mpm, simulation, dt));
     if (scheme == MPM_USF) {
         TRY(ranks_agree(simulation->ranks, update_states(mpm, simulation, dt, true)));
         TRY(sum_particles(mpm, simulation));
@@ -365,6 +367,7 @@ struct error *mpm_advance(void *solver, struct simulation *simulation, double dt
     simulation_end_phase(simulation, PHASE_BLOCKS, "grid update");
     find_velocities(mpm, simulation, (struct transfer_step){dt, scheme == MPM_USF},
                     scheme == MPM_MUSL);
+    mpm_take_given(mpm, simulation);
     mpm_book_ambient(mpm, simulation);
     mpm_book_gravity(mpm, simulation, dt, false);
     struct error *error = scheme == MPM_USF ? NULL : update_states(mpm, simulation, dt, false);

@@ -16,7 +16,8 @@
  *     v
  *   particles: density, stress, energy of the next level
  *
- * Heat and mixing in shocks go over `back` too (transfer_warm; transfer_heat, transfer_mix). */
+ * Heat, mixing in shocks and the balance of pressures go over `back` too (transfer_warm;
+ * transfer_heat, transfer_mix; transfer_compliance, transfer_balance). */
 #ifndef BOLIDE_MPM_TRANSFER_H
 #define BOLIDE_MPM_TRANSFER_H
 
@@ -39,6 +40,16 @@ enum { BACK_DIVERGENCE = 3, BACK_HEAT = 3, BACK_STRIDE = 4 };
 /* What a node has there during mixing in shocks: sums of m e, m k and m k^2, k the number of the
  * material. */
 enum { HEAT_ENERGY = 0, HEAT_NUMBER = 1, HEAT_SQUARE = 2, HEAT_NUMBERS = 3 };
+
+/* And while pressures balance, sums of s p, s, s k and s k^2, s the compliance of a particle; then
+ * the mean of the pressure and, in BALANCE_SUM, 1 where the node balances, else 0. */
+enum {
+    BALANCE_PRESSURE = 0,
+    BALANCE_SUM = 1,
+    BALANCE_NUMBER = 2,
+    BALANCE_SQUARE = 3,
+    BALANCE_NUMBERS = 4
+};
 
 /* And while the step limit is found, sums of m c^2, m K and m; the first is then c/K. */
 enum { SPEED_STIFFNESS = 0, SPEED_SOUND = 0, SPEED_COURANT = 1, SPEED_MASS = 2 };
@@ -92,6 +103,9 @@ struct transfer {
     const double *burnt;     /* of each particle; NULL where nothing reacts */
     const double *reaction;  /* the heat that burning frees, of each material, J/kg */
     const double *courant;   /* of each material */
+    const bool *balances;    /* of each: its pressure does */
+    /* while pressures balance: the step; the largest of all particles; what each is given */
+    double balance_dt, largest_pressure, (*given)[2];
     /* of each particle, the work of that pressure per mass; NULL where there is none */
     double *ambient;
 };
@@ -132,6 +146,12 @@ void transfer_again(const struct transfer *transfer, int32_t bin, const double *
  * nodes in both patches of BIN, and overwrites these. */
 void transfer_heat(const struct transfer *transfer, int32_t bin);
 void transfer_mix(const struct transfer *transfer, int32_t bin, double dt);
+
+/* Balance of pressures (balance.c). The first fills the patch of BIN in BACK with the sums
+ * BALANCE_... of its particles; the second finds from those of the nodes, which it overwrites, what
+ * each particle is given: volume, m^3, and energy, J. */
+void transfer_compliance(const struct transfer *transfer, int32_t bin);
+void transfer_balance(const struct transfer *transfer, int32_t bin);
 
 /* Speeds of sound of nodes over their Courant numbers (limit.c). The first fills the patch of BIN
  * in BACK with the sums SPEED_... of its particles. The second turns the sums of the nodes there

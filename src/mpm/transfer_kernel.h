@@ -5,6 +5,7 @@
 #define BOLIDE_MPM_TRANSFER_KERNEL_H
 
 #include "base/isa.h"
+#include "mpm/transfer_balance.h"
 #include "mpm/transfer_body.h"
 #include "mpm/transfer_mixing.h"
 #include "mpm/transfer_speed.h"
@@ -70,6 +71,18 @@ KERNEL(transfer_heat, const struct transfer *t, int32_t bin){
 
 KERNEL(transfer_mix, const struct transfer *t, int32_t bin, double dt){
 #define CALL(dimension) bin_mix(t, kind_make(dimension, WINDOW, 1 << dimension), bin, dt)
+    BY_DIMENSION(t, CALL)
+#undef CALL
+}
+
+KERNEL(transfer_compliance, const struct transfer *t, int32_t bin){
+#define CALL(dimension) bin_compliance(t, kind_make(dimension, WINDOW, 1 << dimension), bin)
+    BY_DIMENSION(t, CALL)
+#undef CALL
+}
+
+KERNEL(transfer_balance, const struct transfer *t, int32_t bin){
+#define CALL(dimension) bin_balance(t, kind_make(dimension, WINDOW, 1 << dimension), bin)
     BY_DIMENSION(t, CALL)
 #undef CALL
 }

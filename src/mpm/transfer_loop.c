@@ -40,6 +40,10 @@ CHOOSE(transfer_heat, (const struct transfer *transfer, int32_t bin), (transfer,
 
 CHOOSE(transfer_mix, (const struct transfer *transfer, int32_t bin, double dt), (transfer, bin, dt))
 
+CHOOSE(transfer_compliance, (const struct transfer *transfer, int32_t bin), (transfer, bin))
+
+CHOOSE(transfer_balance, (const struct transfer *transfer, int32_t bin), (transfer, bin))
+
 CHOOSE(transfer_stiffness, (const struct transfer *transfer, int32_t bin), (transfer, bin))
 
 CHOOSE(transfer_speed, (const struct transfer *transfer, int32_t bin, double *sound),
