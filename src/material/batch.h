@@ -76,6 +76,7 @@ BOLIDE_INLINE void batch_energies(const struct material *material, struct batch 
             energy[k] = b->energy[k];                                                             \
             struct eos_value value = eos_##name(eos, density, energy[k], none);                   \
             value.pressure = maximum(value.pressure, least);                                      \
+            beyond[k] = value.status & POINT_BEYOND;                                              \
             if (from == ENERGY_BY_WORK) {                                                         \
                 b->energy[k] +=                                                                   \
                     material_work_of_pressure(b->density[k], b->new_density[k], &value);          \
@@ -84,7 +85,7 @@ BOLIDE_INLINE void batch_energies(const struct material *material, struct batch 
             }                                                                                     \
             b->pressure[k] = value.pressure;                                                      \
             b->sound_long[k] = material_response(&value, density, shear_modulus, 0.0).sound_long; \
-            beyond[k] = value.status & POINT_BEYOND; /* which depends on the density alone */     \
+            beyond[k] |= value.status & POINT_BEYOND;                                             \
             any |= beyond[k];                                                                     \
         }                                                                                         \
         break;

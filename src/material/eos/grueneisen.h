@@ -22,7 +22,10 @@
  *   1 + gamma it leaves c^2 > 0 wherever p >= 0. The tension has a maximum, the cohesive energy is
  *   finite (aluminium: 11 GPa and 11 MJ/kg about the adiabat with gamma rho constant; 12 MJ/kg is
  *   measured), and hotter material expands as a gas. In tension beyond the maximum c^2 would be
- *   negative: it is held at t/100 of that at rho_1. */
+ *   negative: it is held at t/100 of that at rho_1;
+ * - at energies below e_1 = -c^2/100, which is about that of absolute zero (-0.16 of 0.11 MJ/kg in
+ *   copper, -0.042 of 0.038 in lead): what is under tension and compressed would cool, and pull,
+ *   without bound. Below, e counts as e_1 - s/(1 - s/e_1), s = e_1 - e: never less than 2 e_1. */
 #ifndef BOLIDE_EOS_GRUENEISEN_H
 #define BOLIDE_EOS_GRUENEISEN_H
 
@@ -45,10 +48,24 @@ BOLIDE_INLINE double grueneisen_deepest(void) { return 0.9; }
 BOLIDE_INLINE double grueneisen_gamma_weight(void) { return 0.5; }
 BOLIDE_INLINE double grueneisen_product_weight(void) { return 0.25; }
 
-/* A function of density and its derivative. */
+/* A function of density or energy and its derivative. */
 struct eos_curve_point {
     double value, slope;
 };
+
+/* Whether ENERGY is above e_1, and as what it counts; of a model whose weak shocks have the speed
+ * SOUND. */
+BOLIDE_INLINE bool grueneisen_is_warm(double sound, double energy)
+{
+    return energy >= -0.01 * square(sound);
+}
+BOLIDE_INLINE struct eos_curve_point grueneisen_warmth(double sound, double energy)
+{
+    const double deepest = 0.01 * square(sound), below = maximum(-deepest - energy, 0.0),
+                 share = 1.0 / (1.0 + below / deepest);
+    const struct eos_curve_point warmth = {energy + below - below * share, square(share)};
+    return warmth;
+}
 
 /* The largest (v_0 - v)/v_0 at which p_H is that of U_s = c + SLOPE U_p, and whether PART/WHOLE is
  * within it, without a division. */
@@ -222,37 +239,46 @@ BOLIDE_INLINE struct heat_curve eos_expanded_curve(const struct eos_edge *edge,
  * MODEL_end(), the largest density of the form of its source, MODEL_adiabat() and MODEL_weight(),
  * p_H and h, and MODEL_curve(), the curve of temperatures of that form. THERMAL_SLOPE is dG/drho,
  * of EOS. */
-#define GRUENEISEN_CONTINUED(model, thermal_slope)                                                 \
-    BOLIDE_INLINE struct eos_edge model##_edge(const struct eos_##model *eos)                      \
-    {                                                                                              \
-        const double none[POINT_HISTORY] = {0.0};                                                  \
-        const double density = grueneisen_tension() * eos->density;                                \
-        return eos_edge_of(eos->density, density, eos_##model(eos, density, 0.0, none),            \
-                           thermal_slope);                                                         \
-    }                                                                                              \
-    BOLIDE_INLINE struct eos_value eos_##model##_beyond(const struct eos_##model *eos,             \
-                                                        double density, double energy)             \
-    {                                                                                              \
-        if (density < eos->density) {                                                              \
-            const struct eos_edge edge = model##_edge(eos);                                        \
-            return eos_expanded(&edge, density, energy);                                           \
-        }                                                                                          \
-        return grueneisen_compressed(eos->density, density, energy, model##_adiabat(eos, density), \
-                                     model##_weight(eos, density));                                \
-    }                                                                                              \
-    EOS_ADIABAT_CURVE(model##_curve_on, model, model##_adiabat, model##_weight)                    \
-    BOLIDE_INLINE struct heat_curve eos_##model##_curve(const struct eos_##model *eos,             \
-                                                        const struct heat *heat, double density)   \
-    {                                                                                              \
-        const struct eos_edge edge = model##_edge(eos);                                            \
-        const double end = model##_end(eos);                                                       \
-        if (eos->form == EOS_SOURCE || (density >= edge.density && density <= end))                \
-            return model##_curve(eos, heat, density);                                              \
-        if (density > end)                                                                         \
-            return model##_curve_on(eos, heat->capacity, model##_curve(eos, heat, end), end,       \
-                                    density);                                                      \
-        return eos_expanded_curve(&edge, model##_curve(eos, heat, edge.density), density,          \
-                                  heat->capacity);                                                 \
+#define GRUENEISEN_CONTINUED(model, thermal_slope)                                               \
+    BOLIDE_INLINE struct eos_edge model##_edge(const struct eos_##model *eos)                    \
+    {                                                                                            \
+        const double none[POINT_HISTORY] = {0.0};                                                \
+        const double density = grueneisen_tension() * eos->density;                              \
+        return eos_edge_of(eos->density, density, eos_##model(eos, density, 0.0, none),          \
+                           thermal_slope);                                                       \
+    }                                                                                            \
+    BOLIDE_INLINE struct eos_value eos_##model##_beyond(const struct eos_##model *eos,           \
+                                                        double density, double energy)           \
+    {                                                                                            \
+        const double none[POINT_HISTORY] = {0.0};                                                \
+        const struct eos_edge edge = model##_edge(eos);                                          \
+        const struct eos_curve_point warm = grueneisen_warmth(eos->sound, energy);               \
+        struct eos_value value;                                                                  \
+        if (density < edge.density)                                                              \
+            value = eos_expanded(&edge, density, warm.value);                                    \
+        else if (density > model##_end(eos))                                                     \
+            value = grueneisen_compressed(eos->density, density, warm.value,                     \
+                                          model##_adiabat(eos, density),                         \
+                                          model##_weight(eos, density));                         \
+        else                                                                                     \
+            value = eos_##model(eos, density, warm.value, none);                                 \
+        value.dp_de *= warm.slope;                                                               \
+        value.status &= ~(unsigned)POINT_BEYOND;                                                 \
+        return value;                                                                            \
+    }                                                                                            \
+    EOS_ADIABAT_CURVE(model##_curve_on, model, model##_adiabat, model##_weight)                  \
+    BOLIDE_INLINE struct heat_curve eos_##model##_curve(const struct eos_##model *eos,           \
+                                                        const struct heat *heat, double density) \
+    {                                                                                            \
+        const struct eos_edge edge = model##_edge(eos);                                          \
+        const double end = model##_end(eos);                                                     \
+        if (eos->form == EOS_SOURCE || (density >= edge.density && density <= end))              \
+            return model##_curve(eos, heat, density);                                            \
+        if (density > end)                                                                       \
+            return model##_curve_on(eos, heat->capacity, model##_curve(eos, heat, end), end,     \
+                                    density);                                                    \
+        return eos_expanded_curve(&edge, model##_curve(eos, heat, edge.density), density,        \
+                                  heat->capacity);                                               \
     }
 
 #endif

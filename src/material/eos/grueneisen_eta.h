@@ -48,7 +48,8 @@ BOLIDE_INLINE struct eos_value eos_grueneisen_eta(const struct eos_grueneisen_et
     double guard = 1e-3;
     const bool within = (eta >= grueneisen_tension()) &
                         (solid->gamma * k <= 2.0 * (1.0 - grueneisen_product_weight()) * eta) &
-                        grueneisen_on_adiabat(solid->slope, k, eta);
+                        grueneisen_on_adiabat(solid->slope, k, eta) &
+                        grueneisen_is_warm(solid->sound, energy);
     value.status = within | (solid->form == EOS_SOURCE) ? 0 : POINT_BEYOND;
     if (over < guard) {
         over = guard;

@@ -52,7 +52,8 @@ BOLIDE_INLINE struct eos_value eos_grueneisen_polynomial(
         (slope * share - 0.5 * solid->gamma * curve) / solid->density + solid->gamma * energy;
     value.dp_de = solid->gamma * density;
     const bool within = (mu >= grueneisen_tension() - 1.0) &
-                        (solid->gamma * mu <= 2.0 * (1.0 - grueneisen_gamma_weight()));
+                        (solid->gamma * mu <= 2.0 * (1.0 - grueneisen_gamma_weight())) &
+                        grueneisen_is_warm(solid->sound, energy);
     value.status = within | (solid->form == EOS_SOURCE) ? 0 : POINT_BEYOND;
     return value;
 }

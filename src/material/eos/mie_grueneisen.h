@@ -53,7 +53,8 @@ BOLIDE_INLINE struct eos_value eos_mie_grueneisen(const struct eos_mie_grueneise
     const bool within = (density >= grueneisen_tension() * solid->density) &
                         (solid->gamma * (density - solid->density) <=
                          2.0 * (1.0 - grueneisen_gamma_weight()) * solid->density) &
-                        grueneisen_on_adiabat(solid->slope, dv, v0);
+                        grueneisen_on_adiabat(solid->slope, dv, v0) &
+                        grueneisen_is_warm(solid->sound, energy);
     value.status = within | (solid->form == EOS_SOURCE) ? 0 : POINT_BEYOND;
     if (dv <= 0.0) {
         slope = solid->bulk_modulus * solid->density;
