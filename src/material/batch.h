@@ -143,6 +143,31 @@ BOLIDE_INLINE void batch_leave_rubble(const struct material *material, struct ba
     matter->least[k] = 0.0;
 }
 
+/* The points of a batch wait for the edge of the tension to stand, as material_wait has it. */
+BOLIDE_INLINE void batch_wait(const struct material *material, struct batch *b,
+                              const struct batch_matter *matter)
+{
+    for (int k = 0; k < b->count; k++) {
+        struct motion motion = batch_motion(b, k);
+        struct point point = {.density = matter->density[k],
+                              .energy = b->energy[k],
+                              .deviator = batch_tensor(b->new_deviator, k)};
+        if (b->damage[k] >= 1.0)
+            continue;
+        motion.acceleration =
+            vec3_make(b->acceleration[0][k], b->acceleration[1][k], b->acceleration[2][k]);
+        for (int slot = 0; slot < POINT_HISTORY; slot++)
+            point.history[slot] = 0.0;
+        point.history[HISTORY_strength_scatter] = b->scatter[k];
+        point.history[HISTORY_damage] = b->damage[k];
+        point.history[HISTORY_overload] = b->overload[k];
+        const struct eos_value value = material_pressure(material, &point);
+        material_wait(material, &motion, &value, &point);
+        b->overload[k] = point.history[HISTORY_overload];
+        b->damage[k] = point.history[HISTORY_damage];
+    }
+}
+
 /* The failure model, after the strength; STRAIN is the plastic strain before. */
 BOLIDE_INLINE void batch_fail(const struct material *material, struct batch *b,
                               const double *strain, struct batch_matter *matter)
@@ -174,8 +199,11 @@ BOLIDE_INLINE void batch_fail(const struct material *material, struct batch *b,
     }
     for (int k = 0; k < b->count; k++) {
         b->damage[k] = b->damage[k] < 1.0 ? minimum(damage[k], 1.0) : b->damage[k];
-        failed |= b->damage[k] >= 1.0;
     }
+    if (failure_waits(&material->failure))
+        batch_wait(material, b, matter);
+    for (int k = 0; k < b->count; k++)
+        failed |= b->damage[k] >= 1.0;
     for (int k = 0; failed && k < b->count; k++)
         if (b->damage[k] >= 1.0)
             batch_leave_rubble(material, b, matter, k);

@@ -91,6 +91,12 @@ BOLIDE_INLINE struct failure_traits failure_traits(const struct failure *failure
     }
 }
 
+/* Whether spall_overload() says when a point fails. */
+BOLIDE_INLINE bool failure_waits(const struct failure *failure)
+{
+    return failure->kind == FAILURE_spall && failure->of.spall.onset == SPALL_STANDING;
+}
+
 /* Why its parameters do not go together, *KEY is that it is about; NULL when they do. */
 BOLIDE_INLINE const char *failure_wrong(const struct failure *failure, const char **key)
 {

@@ -14,6 +14,7 @@
     X(largest_compression, "", "largest rho/rho_0 - 1 so far", FIELD_NOT_NEGATIVE)           \
     X(damage, "", "damage by crushing or by a failure model; 1: failed", FIELD_NOT_NEGATIVE) \
     X(void_ratio, "", "volume of voids in failed material over that of the material", 0)     \
+    X(overload, "", "fraction of the time to spall that has passed", FIELD_NOT_NEGATIVE)     \
     X(strength_scatter, "", "strength at failure over the characteristic one, less 1", 0)    \
     X(tensile_damage, "", "damage by tension; 1: broken", FIELD_NOT_NEGATIVE)                \
     X(plastic_heating, "K", "temperature rise from a hot start and plastic work", 0)         \

@@ -225,6 +225,19 @@ BOLIDE_INLINE void material_leave_rubble(const struct material *material, struct
         point->deviator = sym3_scale(friction / mises, point->deviator);
 }
 
+/* Lets POINT, which has VALUE and waits for the edge of the tension to stand, fail when it does. */
+BOLIDE_INLINE void material_wait(const struct material *material, const struct motion *motion,
+                                 const struct eos_value *value, struct point *point)
+{
+    const struct failing failing = material_failing(motion, point, 0.0, value->pressure);
+    const double shear = strength_shear_modulus(&material->strength);
+    const double sound = material_response(value, point->density, shear, 0.0).sound_long;
+    double *const overload = &point->history[HISTORY_overload];
+    *overload = spall_overload(&material->failure.of.spall, &failing, motion, sound, *overload);
+    if (*overload >= 1.0)
+        point->history[HISTORY_damage] = 1.0;
+}
+
 /* What the failure model does to POINT after the elastic and plastic part of a step, which flowed
  * FLOW. */
 BOLIDE_INLINE void material_fail(const struct material *material, const struct motion *motion,
@@ -240,6 +253,8 @@ BOLIDE_INLINE void material_fail(const struct material *material, const struct m
         failing.homologous =
             strength_homologous(&material->strength, point->history[HISTORY_plastic_heating]);
         *damage = minimum(failure_damage(&material->failure, &failing, *damage), 1.0);
+        if (failure_waits(&material->failure))
+            material_wait(material, motion, &value, point);
     }
     if (*damage >= 1.0)
         material_leave_rubble(material, point);
@@ -432,6 +447,8 @@ BOLIDE_INLINE unsigned material_history(const struct material *material)
     unsigned failing = HISTORY_BIT(damage) | HISTORY_BIT(void_ratio);
     if (failure_scatters(&material->failure))
         failing |= HISTORY_BIT(strength_scatter);
+    if (failure_waits(&material->failure))
+        failing |= HISTORY_BIT(overload);
     return eos_history(&material->eos) | strength_history(&material->strength) |
            (material_fails(material) ? failing : 0) | (material_is_lit(material) ? burning : 0);
 }

@@ -33,6 +33,7 @@ struct motion {
     double dt, density, energy;
     struct sym3 strain_rate;
     struct vec3 spin;
+    struct vec3 acceleration; /* m/s^2; of what waits for its failure alone */
     double viscous_pressure;
     double time, length; /* at the end of the step, s; of the point, its diameter or spacing, m */
     double compaction;   /* rho/rho_0 lost to pores that closed in the step; the material sets it */

@@ -186,6 +186,14 @@ void refuse_broken_contacts(const struct problem *problem, struct findings *find
                         "sph have: choose one, or `failure: spall`");
 }
 
+void refuse_standing_spall(const struct problem *problem, struct findings *findings)
+{
+    for (int m = 0; m < problem->materials; m++)
+        if (failure_traits(&problem->material[m].failure).waits)
+            finding_add(findings, FINDING_WRONG, "materials", problem->input->materials.names[m],
+                        "`onset: standing` of spall is for the solver sph and its default method");
+}
+
 /* The store keeps the number of a body in 16 bits. */
 static struct error *check_counts(const struct simulation_case *input)
 {

@@ -49,6 +49,9 @@ struct error *input_error(const struct simulation_case *input, const char *secti
  * break. */
 void refuse_broken_contacts(const struct problem *problem, struct findings *findings);
 
+/* The same of a material that waits with its failure. */
+void refuse_standing_spall(const struct problem *problem, struct findings *findings);
+
 /* The fields for the history variables of the case's materials beyond the core's, POINT_HISTORY at
  * most, which the solver adds to its store. Returns their number. */
 int problem_history(const struct problem *problem, struct field_declaration *fields);

@@ -131,6 +131,7 @@ static void refuse(const struct mpm_parameters *given, double edge,
     if (!simulation->problem->place.is_part)
         boundaries_refuse_of_particles(findings, mpm_class.boundaries);
     refuse_broken_contacts(simulation->problem, findings);
+    refuse_standing_spall(simulation->problem, findings);
     refuse_far_bodies(edge, simulation, findings);
 }
 

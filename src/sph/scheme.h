@@ -109,6 +109,7 @@ struct sph_scheme {
     double smoothing[3];           /* defaults by dimension */
     double courant, courant_limit; /* the default, and the largest K that is stable */
     bool conducts;                 /* heat may be conducted beside it */
+    bool stands;                   /* spall with `onset: standing` */
     bool breaks;                   /* contacts break where the material fails */
     bool touches;                  /* bodies that start apart act when they touch */
     size_t state_size;             /* bytes of its own state, zeroed before create */

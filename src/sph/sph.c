@@ -298,6 +298,8 @@ static void refuse(const struct sph *sph, const struct simulation *simulation,
                                        "give `conduction` as well"));
     if (!scheme->breaks)
         refuse_broken_contacts(simulation->problem, findings);
+    if (!scheme->stands)
+        refuse_standing_spall(simulation->problem, findings);
     for (int m = 0; sph_has(sph, SPH_THIN) && m < simulation->problem->materials; m++)
         if (!material_has_strength(&simulation->problem->material[m]))
             finding_add(findings, FINDING_WRONG, "materials", input->materials.names[m],

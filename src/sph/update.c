@@ -219,6 +219,7 @@ static void step_point(struct particles *p, const struct advance *step,
     motion.energy = passage->batch.energy[k];
     motion.time = step->time;
     motion.length = f->diameter[i];
+    motion.acceleration = vector_at(f->rates.acceleration[i]);
     particle_load_history(p, i, point.history);
     const struct response r = f->thickness
                                   ? sph_thin_step(passage->material, plane[0] + plane[1] + plane[2],
@@ -253,6 +254,8 @@ static void step_batch(struct particles *p, const struct advance *step, struct p
         for (int c = 0; c < 3; c++)
             b->spin[c][k] = b->spin[c][from];
         batch_load_history(b, k, p->history, i);
+        for (int c = 0; c < 3 && p->history[HISTORY_overload]; c++)
+            b->acceleration[c][k] = f->rates.acceleration[i][c];
     }
     batch_run(passage->material, b, ENERGY_GIVEN);
     for (int k = 0; k < passage->count; k++) {

@@ -67,6 +67,11 @@ static void put(struct batch *b, int k, const struct point *point, const struct 
     b->damage[k] = point->history[HISTORY_damage];
     b->void_ratio[k] = point->history[HISTORY_void_ratio];
     b->scatter[k] = point->history[HISTORY_strength_scatter];
+    b->overload[k] = point->history[HISTORY_overload];
+    b->acceleration[0][k] = motion->acceleration.x;
+    b->acceleration[1][k] = motion->acceleration.y;
+    b->acceleration[2][k] = motion->acceleration.z;
+    b->length[k] = motion->length;
 }
 
 static void check(const struct batch *b, int k, const struct point *point,
@@ -79,6 +84,7 @@ static void check(const struct batch *b, int k, const struct point *point,
     assert_true(b->plastic_heating[k] == point->history[HISTORY_plastic_heating]);
     assert_true(b->damage[k] == point->history[HISTORY_damage]);
     assert_true(b->void_ratio[k] == point->history[HISTORY_void_ratio]);
+    assert_true(b->overload[k] == point->history[HISTORY_overload]);
     assert_true(b->new_density[k] == point->density);
     for (int c = 0; c < 6; c++)
         assert_true(b->new_deviator[c][k] == s[c]);
@@ -106,6 +112,7 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
         {FAILURE_cavitation, {.cavitation = {.tension = 1e8}}},
         {FAILURE_spall, {.spall = {.friction = 0.3, .strength = 1e9}}},
         {FAILURE_spall, {.spall = {.friction = 0.3, .strength = 0.5e9, .stress = SPALL_MEAN}}},
+        {FAILURE_spall, {.spall = {.friction = 0.3, .strength = 1e9, .onset = SPALL_STANDING}}},
         {FAILURE_johnson_cook,
          {.johnson_cook = {.friction = 0.3,
                            .d1 = 0.01,
@@ -137,7 +144,11 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
                 point[k].history[HISTORY_void_ratio] =
                     damage == 1.0 ? dice_between(&dice, 0.0, VOIDS_MOST) : 0.0;
                 point[k].history[HISTORY_strength_scatter] = dice_between(&dice, -0.5, 0.5);
+                point[k].history[HISTORY_overload] = dice_between(&dice, 0.0, 1.0);
             }
+            motion[k].acceleration =
+                vec3_make(dice_between(&dice, -1e10, 1e10), dice_between(&dice, -1e10, 1e10), 0.0);
+            motion[k].length = 1e-4;
             put(&batch, k, &point[k], &motion[k]);
         }
         const bool given = m % 3 == 0;

@@ -246,6 +246,31 @@ static void a_liquid_cavitates_and_bubbles_close(void **state)
     assert_close(point.pressure, 1e-3 * 2700.0 * square(5350.0), 0.02);
 }
 
+/* The overload of a point in TENSION, in strengths, after a step of one hundredth of a transit,
+ * where the tension falls by CHANGE along a diameter, and by RATE in a transit as it stretches. */
+static double overload_after(double tension, double change, double rate)
+{
+    const struct failure_spall spall = {.strength = 1.0, .stress = SPALL_MEAN};
+    const struct failing point = {.density = 1.0,
+                                  .pressure = -tension,
+                                  .deviator = {2.0, -1.0, -1.0},
+                                  .stretching = rate,
+                                  .relative = 1.0};
+    const struct motion motion = {
+        .dt = 0.01, .length = 1.0, .acceleration = vec3_make(change, 0.0, 0.0)};
+    return spall_overload(&spall, &point, &motion, 1.0, 0.5);
+}
+
+static void spall_waits_for_the_edge_of_the_tension_to_stand(void **state)
+{
+    (void)state;
+    assert_true(overload_after(0.99, 0.1, 0.0) == 0.0); /* begins again */
+    assert_close(overload_after(1.01, 0.02, 0.02), 0.5 + 0.01 / 5.0, 1e-12);
+    assert_true(overload_after(1.5, 0.02, 0.02) == 0.5); /* a wave passes */
+    assert_close(overload_after(1.5, 0.02, 0.2), 0.5 + 0.01 / 20.0, 1e-12);
+    assert_close(overload_after(1.5, 0.0, 0.0), 0.5 + 0.01 / 20.0, 1e-12);
+}
+
 /* Random steps of failed material: what it bears, and that no state is impossible. */
 static void failed_material_bears_no_tension_whatever_happens(void **state)
 {
@@ -335,6 +360,7 @@ int main(void)
         cmocka_unit_test(grady_takes_the_weaker_of_cracks_and_holes),
         cmocka_unit_test(fluids_and_models_that_fail_by_themselves_take_none),
         cmocka_unit_test(a_liquid_cavitates_and_bubbles_close),
+        cmocka_unit_test(spall_waits_for_the_edge_of_the_tension_to_stand),
         cmocka_unit_test(failed_material_bears_no_tension_whatever_happens),
         cmocka_unit_test(strength_scatters_as_weibull_says),
         cmocka_unit_test(a_stronger_point_fails_later),

@@ -47,9 +47,9 @@ struct batch {
         viscous_pressure[BATCH];
     double strain_rate[6][BATCH], spin[3][BATCH], deviator[6][BATCH], new_deviator[6][BATCH];
     double plastic_strain[BATCH], plastic_heating[BATCH];
-    double damage[BATCH], void_ratio[BATCH], scatter[BATCH]; /* where the material fails */
-    double length[BATCH];                                    /* that, too */
-    double sound_long[BATCH];                                /* after; zero: there is none */
+    double damage[BATCH], void_ratio[BATCH], scatter[BATCH];       /* where the material fails */
+    double length[BATCH], overload[BATCH], acceleration[3][BATCH]; /* that, too */
+    double sound_long[BATCH];                                      /* after; zero: there is none */
 };
 
 BOLIDE_INLINE struct sym3 batch_tensor(const double (*of)[BATCH], int k)
@@ -73,12 +73,14 @@ BOLIDE_INLINE void batch_load_history(struct batch *b, int k, double *const hist
                                       int32_t i)
 {
     const double *heating = history[HISTORY_plastic_heating], *voids = history[HISTORY_void_ratio],
-                 *scatter = history[HISTORY_strength_scatter];
+                 *scatter = history[HISTORY_strength_scatter],
+                 *overload = history[HISTORY_overload];
     b->plastic_strain[k] = history[HISTORY_plastic_strain][i];
     b->plastic_heating[k] = heating ? heating[i] : 0.0;
     b->damage[k] = voids ? history[HISTORY_damage][i] : 0.0;
     b->void_ratio[k] = voids ? voids[i] : 0.0;
     b->scatter[k] = scatter ? scatter[i] : 0.0;
+    b->overload[k] = overload ? overload[i] : 0.0;
 }
 
 BOLIDE_INLINE void batch_keep_history(const struct batch *b, int k,
@@ -91,6 +93,8 @@ BOLIDE_INLINE void batch_keep_history(const struct batch *b, int k,
         history[HISTORY_damage][i] = b->damage[k];
         history[HISTORY_void_ratio][i] = b->void_ratio[k];
     }
+    if (history[HISTORY_overload])
+        history[HISTORY_overload][i] = b->overload[k];
 }
 
 BOLIDE_INLINE struct motion batch_motion(const struct batch *b, int k)
