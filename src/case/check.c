@@ -51,6 +51,8 @@ struct error *case_fill_material(struct material_input *material)
         plain->burn.kind = (enum burn_kind)material->burn.index;
         memcpy(&plain->burn.of, material->burn.value, material->burn.choice->size);
     }
+    if (material->eos.value)
+        material_complete(plain);
     return NULL;
 }
 

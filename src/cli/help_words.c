@@ -27,7 +27,8 @@ static const struct answer answers[] = {
      "  failure: {spall: {strength: 1.3 GPa}}   breaks where the tension reaches a strength\n"
      "  failure: {johnson-cook: ...}            ductile damage; the library has sets\n"
      "A metal without one never breaks; the run warns when the tension exceeds what the real\n"
-     "metal bears. Concrete (strength: hjc) and soil (drucker-prager) fail by themselves.\n"
+     "metal bears. Ceramics and glass (strength: johnson-holmquist), concrete (hjc) and soil\n"
+     "(drucker-prager) fail by themselves.\n"
      "Checks measure fragments and largest_fragment; output: {fragments: yes} lists them.",
      "failure.md"},
     {" tension tensile.strength ",
@@ -57,8 +58,9 @@ static const struct answer answers[] = {
      "available.",
      "failure.md"},
     {" damage ",
-     "The field `damage` is that of a failure model (`bolide help failure`) or of crushed\n"
-     "concrete (strength: hjc), 1: failed. Concrete has `tensile_damage` too.",
+     "The field `damage` is that of a failure model (`bolide help failure`), of ceramics and\n"
+     "glass (strength: johnson-holmquist) or of crushed concrete (strength: hjc), 1: failed.\n"
+     "Concrete has `tensile_damage` too.",
      "failure.md"},
     {" whipple whipple.shield shield bumper debris debris.cloud hypervelocity hvi ",
      "A sphere through a bumper and its cloud on a wall: a worked case is on the page below.\n"
@@ -291,10 +293,12 @@ static const struct answer answers[] = {
      "eos: tillotson goes from solid to vapour, and Johnson-Cook strength vanishes at `melt`.\n"
      "Solid-solid transitions, latent heat and melting curves are not available.",
      "materials.md"},
-    {" ceramic glass jh2 jh.2 johnson.holmquist ",
-     "Not available with failure: alumina, boron carbide and glass of the library are elastic\n"
-     "up to their limit. Concrete is available (strength: hjc).",
-     "materials.md"},
+    {" ceramic glass brittle tile pane jh2 jh.2 jh-2 holmquist ",
+     "strength: johnson-holmquist is JH-2, with damage and bulking. The library has its constants\n"
+     "for boron carbide, alumina, aluminium nitride and float glass (names that end in -jh2):\n"
+     "  materials: {tile: {library: boron-carbide-jh2}}\n"
+     "Concrete has a model of its own (strength: hjc).",
+     "brittle.md"},
     {" time.step timestep time.step.size cfl courant.number ",
      "The solver chooses the step: the time that a wave takes to cross a particle or a cell, "
      "times\n"

@@ -31,7 +31,14 @@ BOLIDE_INLINE void batch_work(struct batch *b)
  * that they have there. */
 struct batch_matter {
     double density[BATCH], least[BATCH];
+    double added[BATCH]; /* to its pressure, by bulking; -0: nothing, to the last bit */
 };
+
+/* The pressure of point K as it is, from that of the equation of state. */
+BOLIDE_INLINE double batch_pressure(const struct batch_matter *matter, int k, double pressure)
+{
+    return maximum(pressure + matter->added[k], matter->least[k]);
+}
 
 /* The equation of state of point K at ENERGY. */
 BOLIDE_INLINE struct eos_value batch_value(const struct eos *eos, const struct batch_matter *matter,
@@ -39,7 +46,7 @@ BOLIDE_INLINE struct eos_value batch_value(const struct eos *eos, const struct b
 {
     const double none[POINT_HISTORY] = {0.0};
     struct eos_value value = eos_evaluate(eos, matter->density[k], energy, none);
-    value.pressure = maximum(value.pressure, matter->least[k]);
+    value.pressure = batch_pressure(matter, k, value.pressure);
     return value;
 }
 
@@ -72,16 +79,16 @@ BOLIDE_INLINE void batch_energies(const struct material *material, struct batch 
     case EOS_##name:                                                                              \
         for (int k = 0; k < b->count; k++) {                                                      \
             const struct eos_##name *eos = &material->eos.of.name;                                \
-            const double density = matter->density[k], least = matter->least[k];                  \
+            const double density = matter->density[k];                                            \
             energy[k] = b->energy[k];                                                             \
             struct eos_value value = eos_##name(eos, density, energy[k], none);                   \
-            value.pressure = maximum(value.pressure, least);                                      \
+            value.pressure = batch_pressure(matter, k, value.pressure);                           \
             beyond[k] = value.status & POINT_BEYOND;                                              \
             if (from == ENERGY_BY_WORK) {                                                         \
                 b->energy[k] +=                                                                   \
                     material_work_of_pressure(b->density[k], b->new_density[k], &value);          \
                 value = eos_##name(eos, density, b->energy[k], none);                             \
-                value.pressure = maximum(value.pressure, least);                                  \
+                value.pressure = batch_pressure(matter, k, value.pressure);                       \
             }                                                                                     \
             b->pressure[k] = value.pressure;                                                      \
             b->sound_long[k] = material_response(&value, density, shear_modulus, 0.0).sound_long; \
@@ -209,6 +216,80 @@ BOLIDE_INLINE void batch_fail(const struct material *material, struct batch *b,
             batch_leave_rubble(material, b, matter, k);
 }
 
+/* What strength adds to the PRESSURE of the equation of state, and what it cuts of it. */
+BOLIDE_INLINE void batch_cut(const struct strength *strength, const struct batch *b,
+                             double *pressure)
+{
+    switch (strength->kind) {
+#define BATCH_CASE(name)                                                \
+    case STRENGTH_##name:                                               \
+        for (int k = 0; k < b->count; k++) {                            \
+            double history[POINT_HISTORY] = {0.0};                      \
+            struct eos_value value = {pressure[k], 0.0, 0.0, 0};        \
+            history[HISTORY_damage] = b->damage[k];                     \
+            history[HISTORY_bulking] = b->bulking[k];                   \
+            strength_##name##_cut(&strength->of.name, history, &value); \
+            pressure[k] = value.pressure;                               \
+        }                                                               \
+        break;
+        STRENGTH_CUTTING(BATCH_CASE)
+#undef BATCH_CASE
+    default:
+        break;
+    }
+}
+
+/* Point K, which fails, through the step of its strength. */
+BOLIDE_INLINE void batch_fail_pressed(const struct material *material, struct batch *b,
+                                      const struct batch_matter *matter, int k)
+{
+    const struct motion motion = batch_motion(b, k);
+    struct point point = {.density = matter->density[k],
+                          .energy = b->energy[k],
+                          .deviator = batch_tensor(b->deviator, k)};
+    point.history[HISTORY_damage] = b->damage[k];
+    point.history[HISTORY_bulking] = b->bulking[k];
+    point.history[HISTORY_plastic_strain] = b->plastic_strain[k];
+    const struct eos_value trial = material_pressure(material, &point);
+    point.pressure = trial.pressure;
+    strength_step(&material->strength, &motion, material_bulk_modulus(&point, &trial), &point);
+    b->damage[k] = point.history[HISTORY_damage];
+    b->bulking[k] = point.history[HISTORY_bulking];
+    b->plastic_strain[k] = point.history[HISTORY_plastic_strain];
+    batch_keep_tensor(b->new_deviator, k, point.deviator);
+}
+
+/* The strength that takes the pressure. Where it has broken, voids open or close. */
+BOLIDE_INLINE void batch_pressed(const struct material *material, struct batch *b,
+                                 struct batch_matter *matter)
+{
+    const bool opens = material_opens(material);
+    double whole[BATCH];
+    for (int k = 0; k < b->count; k++)
+        matter->density[k] = b->new_density[k] / (opens ? 1.0 + b->void_ratio[k] : 1.0);
+    batch_trial(&material->eos, b, matter, whole);
+    memcpy(b->trial, whole, sizeof whole);
+    batch_cut(&material->strength, b, b->trial);
+    strength_batch(&material->strength, b);
+    for (int k = 0; k < b->count; k++) {
+        if (b->failing[k])
+            batch_fail_pressed(material, b, matter, k);
+        matter->added[k] = b->bulking[k];
+        matter->least[k] = -(double)INFINITY;
+        if (!(opens && b->damage[k] >= 1.0))
+            continue;
+        b->void_ratio[k] = 0.0;
+        if (!(whole[k] + b->bulking[k] < 0.0))
+            continue;
+        struct point point = {.density = matter->density[k], .energy = b->energy[k]};
+        point.history[HISTORY_bulking] = b->bulking[k];
+        material_open(material, &point);
+        b->void_ratio[k] = point.history[HISTORY_void_ratio];
+        matter->density[k] = point.density;
+    }
+    batch_cut(&material->strength, b, matter->least);
+}
+
 /* Takes the points of a batch through the step: strength, failure, work, pressure. */
 BOLIDE_INLINE void batch_step(const struct material *material, struct batch *b,
                               enum batch_energy from)
@@ -218,17 +299,22 @@ BOLIDE_INLINE void batch_step(const struct material *material, struct batch *b,
     double strain[BATCH];
     if (fails)
         memcpy(strain, b->plastic_strain, sizeof strain);
-    strength_batch(&material->strength, b);
-    for (int k = 0; k < b->count; k++) {
-        matter.density[k] = b->new_density[k];
-        matter.least[k] = -(double)INFINITY;
+    if (strength_takes_pressure(&material->strength)) {
+        batch_pressed(material, b, &matter);
+    } else {
+        strength_batch(&material->strength, b);
+        for (int k = 0; k < b->count; k++) {
+            matter.density[k] = b->new_density[k];
+            matter.least[k] = -(double)INFINITY;
+            matter.added[k] = -0.0;
+        }
     }
     if (fails)
         batch_fail(material, b, strain, &matter);
     if (from == ENERGY_BY_WORK)
         batch_work(b);
     batch_energies(material, b, &matter, from);
-    if (fails)
+    if (material_opens(material))
         memcpy(b->new_density, matter.density, sizeof b->new_density);
 }
 

@@ -20,7 +20,15 @@
     X(plastic_heating, "K", "temperature rise from a hot start and plastic work", 0)         \
     X(lighting_time, "s", "arrival time of the detonation", 0)                               \
     X(explosive_volume, "", "volume of the unburnt explosive over that at rest", 0)          \
-    X(burnt, "", "burnt fraction of the explosive", FIELD_FRACTION)
+    X(burnt, "", "burnt fraction of the explosive", FIELD_FRACTION)                          \
+    X(bulking, "Pa", "pressure by the bulking of damaged ceramics and glass", 0)             \
+    X(yield_before, "Pa", "yield stress of the last step", 0)                                \
+    X(deviator_rate_xx, "Pa/s", "rate of deviator.xx in the last step", 0)                   \
+    X(deviator_rate_yy, "Pa/s", "rate of deviator.yy in the last step", 0)                   \
+    X(deviator_rate_zz, "Pa/s", "rate of deviator.zz in the last step", 0)                   \
+    X(deviator_rate_xy, "Pa/s", "rate of deviator.xy in the last step", 0)                   \
+    X(deviator_rate_yz, "Pa/s", "rate of deviator.yz in the last step", 0)                   \
+    X(deviator_rate_zx, "Pa/s", "rate of deviator.zx in the last step", 0)
 
 #define HISTORY_ENUM(slot, unit, help, range) HISTORY_##slot,
 enum { HISTORY_LIST(HISTORY_ENUM) POINT_HISTORY };

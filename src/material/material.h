@@ -77,6 +77,19 @@ BOLIDE_INLINE bool material_fails(const struct material *material)
     return failure_acts(&material->failure);
 }
 
+/* Whether it breaks, by a failure model or by the damage of its strength. */
+BOLIDE_INLINE bool material_breaks(const struct material *material)
+{
+    return material_fails(material) || strength_breaks(&material->strength);
+}
+
+/* Whether it opens voids where it has broken. */
+BOLIDE_INLINE bool material_opens(const struct material *material)
+{
+    return material_fails(material) ||
+           (strength_history(&material->strength) & HISTORY_BIT(void_ratio));
+}
+
 /* Whether POINT has failed by the failure model. */
 BOLIDE_INLINE bool material_failed(const struct material *material, const double *history)
 {
@@ -139,6 +152,12 @@ BOLIDE_INLINE struct response material_evaluate(const struct material *material,
                              strength_yield(&material->strength, point));
 }
 
+/* Of the equation of state of POINT, whose pressure is TRIAL. */
+BOLIDE_INLINE double material_bulk_modulus(const struct point *point, const struct eos_value *trial)
+{
+    return point->density * trial->dp_drho + trial->dp_de * trial->pressure / point->density;
+}
+
 /* Finds the dilation at which the equation of state gives the pressure that POINT has, by Newton's
  * method. */
 BOLIDE_INLINE void material_dilate(const struct material *material, struct point *point)
@@ -160,13 +179,15 @@ BOLIDE_INLINE double material_density_of_no_pressure(const struct material *mate
                                                      const struct point *point)
 {
     const struct eos *eos = &material->eos;
+    const double bulking = point->history[HISTORY_bulking];
     double low = point->density, high = maximum(low, material_density(material));
     for (int k = 0; k < 8; k++, high *= 1.05)
-        if (eos_evaluate(eos, high, point->energy, point->history).pressure >= 0.0)
+        if (eos_evaluate(eos, high, point->energy, point->history).pressure + bulking >= 0.0)
             break;
     double density = high;
     for (int k = 0; k < 60; k++) {
-        const struct eos_value value = eos_evaluate(eos, density, point->energy, point->history);
+        struct eos_value value = eos_evaluate(eos, density, point->energy, point->history);
+        value.pressure += bulking;
         if (value.pressure < 0.0)
             low = density;
         else
@@ -187,8 +208,9 @@ BOLIDE_INLINE double material_density_of_no_pressure(const struct material *mate
 BOLIDE_INLINE void material_open(const struct material *material, struct point *point)
 {
     point->history[HISTORY_void_ratio] = 0.0;
-    if (!(eos_evaluate(&material->eos, point->density, point->energy, point->history).pressure <
-          0.0))
+    const struct eos_value value =
+        eos_evaluate(&material->eos, point->density, point->energy, point->history);
+    if (!(value.pressure + point->history[HISTORY_bulking] < 0.0))
         return;
     const double density = material_density_of_no_pressure(material, point);
     point->history[HISTORY_void_ratio] = minimum(density / point->density - 1.0, VOIDS_MOST);
@@ -319,27 +341,63 @@ BOLIDE_INLINE void material_flow(const struct material *material, struct point *
                                  const struct motion *motion)
 {
     const double strain = point->history[HISTORY_plastic_strain];
+    const bool pressed = strength_takes_pressure(&material->strength);
+    const double before = pressed && strength_breaks(&material->strength)
+                              ? material_pressure(material, point).pressure
+                              : 0.0;
     point->density = motion->density;
-    if (material_fails(material))
+    if (material_opens(material))
         point->density /= 1.0 + point->history[HISTORY_void_ratio];
     if (material_burns(material))
         material_burn(material, motion, point);
     double compaction = eos_compact(&material->eos, point->density, point->history);
-    if (strength_takes_pressure(&material->strength)) {
+    if (pressed) {
         struct eos_value trial = material_pressure(material, point);
-        double bulk =
-            point->density * trial.dp_drho + trial.dp_de * trial.pressure / point->density;
+        double bulk = material_bulk_modulus(point, &trial);
         point->pressure = trial.pressure;
         struct motion with = *motion;
         with.compaction = compaction;
+        with.pressure = before;
         strength_step(&material->strength, &with, bulk, point);
         if (point->pressure != trial.pressure)
             material_dilate(material, point);
+        if (strength_breaks(&material->strength) && material_opens(material) &&
+            point->history[HISTORY_damage] >= 1.0)
+            material_open(material, point);
     } else if (material_has_strength(material)) {
         strength_step(&material->strength, motion, 0.0, point);
     }
     if (material_fails(material))
         material_fail(material, motion, point->history[HISTORY_plastic_strain] - strain, point);
+}
+
+/* Takes the constants of strength that follow from the equation of state. */
+BOLIDE_INLINE void material_complete(struct material *material)
+{
+    const double none[POINT_HISTORY] = {0.0}, density = material_density(material);
+    const struct eos_value rest = eos_evaluate(&material->eos, density, 0.0, none);
+    strength_take(&material->strength, density, &rest);
+}
+
+/* The elastic limit that uniaxial strain at RATE, 1/s, has by a strength that is given one, Pa; NAN:
+ * it has none. */
+BOLIDE_INLINE double material_elastic_limit(const struct material *material, double rate)
+{
+    const double none[POINT_HISTORY] = {0.0}, density = material_density(material);
+    double low = 0.0, high = 0.3; /* rho/rho_0 - 1 */
+    if (isnan(strength_given_limit(&material->strength)))
+        return NAN;
+    for (int k = 0; k < 60; k++) {
+        const double mu = 0.5 * (low + high);
+        const double pressure =
+            eos_evaluate(&material->eos, density * (1.0 + mu), 0.0, none).pressure;
+        if (strength_bears(&material->strength, mu, pressure, rate))
+            low = mu;
+        else
+            high = mu;
+    }
+    return eos_evaluate(&material->eos, density * (1.0 + low), 0.0, none).pressure +
+           4.0 / 3.0 * strength_shear_modulus(&material->strength) * logarithm(1.0 + low);
 }
 
 /* Why strength and failure do not go together; NULL when they do. */

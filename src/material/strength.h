@@ -10,6 +10,7 @@
 #include "material/strength/drucker_prager.h"
 #include "material/strength/hjc.h"
 #include "material/strength/johnson_cook.h"
+#include "material/strength/johnson_holmquist.h"
 #include "material/strength/perfect_plastic.h"
 
 /* X(identifier): in strength/<identifier>.h struct strength_<identifier>, strength_<identifier>(),
@@ -19,7 +20,8 @@
     X(perfect_plastic, ##__VA_ARGS__) \
     X(johnson_cook, ##__VA_ARGS__)    \
     X(drucker_prager, ##__VA_ARGS__)  \
-    X(hjc, ##__VA_ARGS__)
+    X(hjc, ##__VA_ARGS__)             \
+    X(johnson_holmquist, ##__VA_ARGS__)
 
 /* The plain ones: they remember the plastic strain alone and leave the pressure as it is. Hot loops
  * are compiled for each of them. */
@@ -28,13 +30,20 @@
 /* Those with a step of many points at once, strength_<identifier>_batch(): see batch.h. */
 #define STRENGTH_BATCHED(X, ...)      \
     X(perfect_plastic, ##__VA_ARGS__) \
-    X(johnson_cook, ##__VA_ARGS__)
+    X(johnson_cook, ##__VA_ARGS__)    \
+    X(johnson_holmquist, ##__VA_ARGS__)
 
 /* Those that heat softens: strength_<identifier>_homologous(). */
 #define STRENGTH_SOFTENED(X, ...) X(johnson_cook, ##__VA_ARGS__)
 
-/* Those that limit the tension: strength_<identifier>_cut(). */
-#define STRENGTH_CUTTING(X, ...) X(hjc, ##__VA_ARGS__)
+/* Those that change the pressure of the equation of state: strength_<identifier>_cut(). */
+#define STRENGTH_CUTTING(X, ...) \
+    X(hjc, ##__VA_ARGS__)        \
+    X(johnson_holmquist, ##__VA_ARGS__)
+
+/* Those of a given elastic limit, with constants of the equation of state at rest:
+ * strength_<identifier>_take(), _given_limit(), _bears(). */
+#define STRENGTH_RESTING(X, ...) X(johnson_holmquist, ##__VA_ARGS__)
 
 #define STRENGTH_ENUM(name) STRENGTH_##name,
 enum strength_kind { STRENGTH_NONE, STRENGTH_LIST(STRENGTH_ENUM) STRENGTH_KINDS };
@@ -92,6 +101,12 @@ BOLIDE_INLINE bool strength_takes_pressure(const struct strength *strength)
     return strength_traits(strength).takes_pressure;
 }
 
+/* Whether its own damage breaks it. */
+BOLIDE_INLINE bool strength_breaks(const struct strength *strength)
+{
+    return strength_traits(strength).breaks;
+}
+
 /* Whether it is none or a plain model. */
 BOLIDE_INLINE bool strength_is_plain(const struct strength *strength)
 {
@@ -140,8 +155,8 @@ BOLIDE_INLINE void strength_batch(const struct strength *strength, struct batch 
     }
 }
 
-/* Cuts the tension of a state that the material does not bear. Its sound stays that of the uncut.
- * */
+/* Cuts the tension of a state that the material does not bear, and adds what bulking has done. Its
+ * sound stays that of the equation of state. */
 BOLIDE_INLINE void strength_cut(const struct strength *strength, const double *history,
                                 struct eos_value *value)
 {
@@ -149,6 +164,40 @@ BOLIDE_INLINE void strength_cut(const struct strength *strength, const double *h
         STRENGTH_CUTTING(STRENGTH_ANSWER, _cut, history, value)
     default:
         break;
+    }
+}
+
+/* Takes what it needs of the equation of state: REST is that at rest, of DENSITY. */
+BOLIDE_INLINE void strength_take(struct strength *strength, double density,
+                                 const struct eos_value *rest)
+{
+    switch (strength->kind) {
+        STRENGTH_RESTING(STRENGTH_ANSWER, _take, density, rest)
+    default:
+        break;
+    }
+}
+
+/* The stress in uniaxial strain that the source of its constants gives as elastic limit, Pa; NAN:
+ * it has none. */
+BOLIDE_INLINE double strength_given_limit(const struct strength *strength)
+{
+    switch (strength->kind) {
+        STRENGTH_RESTING(STRENGTH_ANSWER, _given_limit)
+    default:
+        return NAN;
+    }
+}
+
+/* Whether uniaxial strain to mu = COMPRESSION under PRESSURE at RATE, 1/s, stays below its intact
+ * strength. */
+BOLIDE_INLINE bool strength_bears(const struct strength *strength, double compression,
+                                  double pressure, double rate)
+{
+    switch (strength->kind) {
+        STRENGTH_RESTING(STRENGTH_ANSWER, _bears, compression, pressure, rate)
+    default:
+        return false;
     }
 }
 

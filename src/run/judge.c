@@ -64,6 +64,25 @@ static void judge_explosives(struct findings *findings)
     }
 }
 
+/* Strength whose constants do not give the elastic limit that they are scaled by: at the strain rate
+ * of a shock, 1/s, and within what published sets that are consistent deviate by. */
+static void judge_limits(struct findings *findings)
+{
+    const struct simulation_case *input = findings->input;
+    const double rate = 1e5, tolerance = 0.1;
+    for (int i = 0; i < input->materials.count; i++) {
+        const struct material *material = case_material(input, i)->material;
+        const double given = strength_given_limit(&material->strength),
+                     computed = material_elastic_limit(material, rate);
+        if (fabs(computed / given - 1.0) > tolerance)
+            finding_add(findings, FINDING_DOUBTFUL, "materials", input->materials.names[i],
+                        "its constants give an elastic limit (HEL) of %.4g GPa at %.0e/s, not the "
+                        "%.4g GPa that they are scaled by: they do not belong together, and it "
+                        "yields at the computed one",
+                        computed * 1e-9, rate, given * 1e-9);
+    }
+}
+
 struct contact_side {
     double pressure, sound, impedance;
     struct range speed;
@@ -127,6 +146,7 @@ struct judgement judge_solver(const struct simulation *simulation)
     blast_cells(findings);
     rod_cells(findings);
     judge_explosives(findings);
+    judge_limits(findings);
     ignitions_judge(findings);
     loads_judge(findings);
     return judgement;

@@ -89,7 +89,7 @@ static unsigned traits_of(const struct sph *sph, const struct simulation *simula
     bool strong = false, fails = false;
     for (int m = 0; m < simulation->problem->materials; m++) {
         strong |= material_has_strength(&simulation->problem->material[m]);
-        fails |= material_fails(&simulation->problem->material[m]);
+        fails |= material_breaks(&simulation->problem->material[m]);
     }
     traits |= has_walls(simulation) ? SPH_WALLS : 0u;
     traits |= images_periodic(&simulation->problem->images) ? SPH_PERIODIC : 0u;

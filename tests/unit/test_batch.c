@@ -23,6 +23,29 @@ static struct strength_johnson_cook explicitly(struct strength_johnson_cook soli
     return solid;
 }
 
+static const struct strength_johnson_holmquist brittle = {.shear_modulus = 23e9,
+                                                          .a = 0.93,
+                                                          .n = 0.77,
+                                                          .b = 0.2,
+                                                          .m = 0.9,
+                                                          .c = 0.003,
+                                                          .rate = 1.0,
+                                                          .most = 0.5,
+                                                          .tension = 0.1e9,
+                                                          .hel = 0.5e9,
+                                                          .hel_pressure = 0.2e9,
+                                                          .d1 = 0.01,
+                                                          .d2 = 0.85,
+                                                          .bulking = 1.0,
+                                                          .tension_limit = true};
+
+static struct strength_johnson_holmquist unlimited(void)
+{
+    struct strength_johnson_holmquist solid = brittle;
+    solid.tension_limit = false;
+    return solid;
+}
+
 static double some(struct dice *dice, double scale) { return dice_between(dice, -scale, scale); }
 
 /* A point and what happens to it; one in four does not flow. */
@@ -72,6 +95,7 @@ static void put(struct batch *b, int k, const struct point *point, const struct 
     b->acceleration[1][k] = motion->acceleration.y;
     b->acceleration[2][k] = motion->acceleration.z;
     b->length[k] = motion->length;
+    b->bulking[k] = point->history[HISTORY_bulking];
 }
 
 static void check(const struct batch *b, int k, const struct point *point,
@@ -83,6 +107,7 @@ static void check(const struct batch *b, int k, const struct point *point,
     assert_true(b->plastic_strain[k] == point->history[HISTORY_plastic_strain]);
     assert_true(b->plastic_heating[k] == point->history[HISTORY_plastic_heating]);
     assert_true(b->damage[k] == point->history[HISTORY_damage]);
+    assert_true(b->bulking[k] == point->history[HISTORY_bulking]);
     assert_true(b->void_ratio[k] == point->history[HISTORY_void_ratio]);
     assert_true(b->overload[k] == point->history[HISTORY_overload]);
     assert_true(b->new_density[k] == point->density);
@@ -95,6 +120,7 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
     (void)state;
     static const struct eos forms[] = {
         {EOS_ideal_gas, {.ideal_gas = {1500.0, 3.0}}},
+        {EOS_polynomial, {.polynomial = {2530.0, 45.4e9, -138e9, 290e9}}},
         {EOS_jwl, {.jwl = {1630.0, 371.2e9, 3.21e9, 4.15, 0.95, 0.3, 6.993e9}}},
         {EOS_jwl, {.jwl = {1750.0, 3756e9, -131.3e9, 7.2, 3.6, 1.173, 60.7965e6, EOS_EXTENDED}}},
         {EOS_mie_grueneisen, {.mie_grueneisen = {2700.0, 5350.0, 1.35, 2.17, 73e9, EOS_EXTENDED}}},
@@ -106,7 +132,9 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
         {STRENGTH_johnson_cook, {.johnson_cook = hard}},
         {STRENGTH_johnson_cook, {.johnson_cook = soft()}},
         {STRENGTH_johnson_cook, {.johnson_cook = explicitly(hard)}},
-        {STRENGTH_johnson_cook, {.johnson_cook = explicitly(soft())}}};
+        {STRENGTH_johnson_cook, {.johnson_cook = explicitly(soft())}},
+        {STRENGTH_johnson_holmquist, {.johnson_holmquist = brittle}},
+        {STRENGTH_johnson_holmquist, {.johnson_holmquist = unlimited()}}};
     const struct failure failures[] = {
         {.kind = FAILURE_NONE},
         {FAILURE_cavitation, {.cavitation = {.tension = 1e8}}},
@@ -128,27 +156,34 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
     struct dice dice = {3};
     size_t broken = 0, whole = 0;
     for (size_t m = 0; m < COUNT_OF(forms) * COUNT_OF(strengths) * COUNT_OF(failures) * 20; m++) {
-        const struct material material = {
+        struct material material = {
             .eos = forms[m % COUNT_OF(forms)],
             .strength = strengths[m / COUNT_OF(forms) % COUNT_OF(strengths)],
             .failure = failures[m / COUNT_OF(forms) / COUNT_OF(strengths) % COUNT_OF(failures)]};
         struct batch batch = {.count = LANES * (1 + dice_below(&dice, 8)), .dt = 1e-8};
         struct point point[BATCH];
         struct motion motion[BATCH];
+        if (strength_takes_pressure(&material.strength))
+            material.failure.kind = FAILURE_NONE;
+        material_complete(&material);
         assert_true(batch_takes(&material));
         for (int k = 0; k < batch.count; k++) {
             throw_point(&dice, material_density(&material), &point[k], &motion[k]);
-            if (material_fails(&material)) {
+            if (material_breaks(&material)) {
                 const double damage = 0.5 * dice_below(&dice, 3);
                 point[k].history[HISTORY_damage] = damage;
-                point[k].history[HISTORY_void_ratio] =
-                    damage == 1.0 ? dice_between(&dice, 0.0, VOIDS_MOST) : 0.0;
+                point[k].history[HISTORY_void_ratio] = damage == 1.0 && material_opens(&material)
+                                                           ? dice_between(&dice, 0.0, VOIDS_MOST)
+                                                           : 0.0;
                 point[k].history[HISTORY_strength_scatter] = dice_between(&dice, -0.5, 0.5);
                 point[k].history[HISTORY_overload] = dice_between(&dice, 0.0, 1.0);
             }
             motion[k].acceleration =
                 vec3_make(dice_between(&dice, -1e10, 1e10), dice_between(&dice, -1e10, 1e10), 0.0);
             motion[k].length = 1e-4;
+            if (strength_breaks(&material.strength))
+                point[k].history[HISTORY_bulking] =
+                    point[k].history[HISTORY_damage] * dice_between(&dice, 0.0, 1e9);
             put(&batch, k, &point[k], &motion[k]);
         }
         const bool given = m % 3 == 0;

@@ -16,6 +16,8 @@ struct strength_traits {
     bool takes_pressure;
     /* It limits the mean tension. */
     bool limits_tension;
+    /* Its damage breaks it: at one, a point has failed. */
+    bool breaks;
     /* It has a step of many points at once. */
     bool batched;
     /* The specific heat by which it computes temperatures, J/(kg K); NAN: it has none. */
@@ -27,7 +29,7 @@ struct strength_traits {
 /* The traits of a model that says no more. */
 BOLIDE_INLINE struct strength_traits strength_default_traits(void)
 {
-    struct strength_traits traits = {0, false, false, false, (double)NAN, NULL, NULL};
+    struct strength_traits traits = {0, false, false, false, false, (double)NAN, NULL, NULL};
     return traits;
 }
 
@@ -47,7 +49,11 @@ struct batch {
         viscous_pressure[BATCH];
     double strain_rate[6][BATCH], spin[3][BATCH], deviator[6][BATCH], new_deviator[6][BATCH];
     double plastic_strain[BATCH], plastic_heating[BATCH];
-    double damage[BATCH], void_ratio[BATCH], scatter[BATCH];       /* where the material fails */
+    double damage[BATCH], void_ratio[BATCH], scatter[BATCH]; /* where the material fails */
+    double bulking[BATCH];
+    /* after the step, for strength that takes the pressure: at the energy that is known */
+    double trial[BATCH];
+    uint64_t failing[BATCH]; /* points that it leaves to be taken by themselves */
     double length[BATCH], overload[BATCH], acceleration[3][BATCH]; /* that, too */
     double sound_long[BATCH];                                      /* after; zero: there is none */
 };
@@ -73,11 +79,12 @@ BOLIDE_INLINE void batch_load_history(struct batch *b, int k, double *const hist
                                       int32_t i)
 {
     const double *heating = history[HISTORY_plastic_heating], *voids = history[HISTORY_void_ratio],
-                 *scatter = history[HISTORY_strength_scatter],
+                 *scatter = history[HISTORY_strength_scatter], *bulking = history[HISTORY_bulking],
                  *overload = history[HISTORY_overload];
     b->plastic_strain[k] = history[HISTORY_plastic_strain][i];
     b->plastic_heating[k] = heating ? heating[i] : 0.0;
-    b->damage[k] = voids ? history[HISTORY_damage][i] : 0.0;
+    b->damage[k] = voids || bulking ? history[HISTORY_damage][i] : 0.0;
+    b->bulking[k] = bulking ? bulking[i] : 0.0;
     b->void_ratio[k] = voids ? voids[i] : 0.0;
     b->scatter[k] = scatter ? scatter[i] : 0.0;
     b->overload[k] = overload ? overload[i] : 0.0;
@@ -89,12 +96,14 @@ BOLIDE_INLINE void batch_keep_history(const struct batch *b, int k,
     history[HISTORY_plastic_strain][i] = b->plastic_strain[k];
     if (history[HISTORY_plastic_heating])
         history[HISTORY_plastic_heating][i] = b->plastic_heating[k];
-    if (history[HISTORY_void_ratio]) {
+    if (history[HISTORY_void_ratio] || history[HISTORY_bulking])
         history[HISTORY_damage][i] = b->damage[k];
+    if (history[HISTORY_void_ratio])
         history[HISTORY_void_ratio][i] = b->void_ratio[k];
-    }
     if (history[HISTORY_overload])
         history[HISTORY_overload][i] = b->overload[k];
+    if (history[HISTORY_bulking])
+        history[HISTORY_bulking][i] = b->bulking[k];
 }
 
 BOLIDE_INLINE struct motion batch_motion(const struct batch *b, int k)

@@ -18,7 +18,7 @@ static void pack_breaking(const struct simulation *simulation, const struct part
         const double relative = scatter ? 1.0 + scatter[i] : 1.0;
         breaking[0] = relative * threshold->strength;
         breaking[1] = isnan(threshold->shear) ? breaking[0] : relative * threshold->shear;
-    } else if (material_fails(material) && p->history[HISTORY_damage][i] >= 1.0) {
+    } else if (material_breaks(material) && p->history[HISTORY_damage][i] >= 1.0) {
         breaking[0] = 0.0;
     }
 }

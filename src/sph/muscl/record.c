@@ -50,12 +50,12 @@ static __attribute__((noinline)) void flow_rarely(const struct strength *strengt
     strength_step(strength, motion, bulk, point);
 }
 
-/* Whether particle I has failed by the failure model of its material. */
+/* Whether particle I has failed. */
 BOLIDE_INLINE bool has_failed(const struct simulation *simulation, const struct particles *p,
                               int32_t i)
 {
-    return p->history[HISTORY_void_ratio] && /* a material of the case fails */
-           material_fails(&simulation->problem->material[p->material[i]]) &&
+    return p->history[HISTORY_damage] && /* a material of the case fails, or is crushed */
+           material_breaks(&simulation->problem->material[p->material[i]]) &&
            p->history[HISTORY_damage][i] >= 1.0;
 }
 
@@ -129,8 +129,9 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
                                        double ahead, int32_t i, double velocity[3], double *elastic)
 {
     const struct particles *p = f->sph.particles;
-    const struct strength *strength = &simulation->problem->material[p->material[i]].strength;
-    const bool failed = has_failed(simulation, p, i);
+    const struct material *material = &simulation->problem->material[p->material[i]];
+    const struct strength *strength = &material->strength;
+    const bool failed = has_failed(simulation, p, i), rubble = failed && material_fails(material);
     const struct expected rates = expected_rates(simulation, f, kind, i);
     const double(*u)[3] = rates.gradient, *s = p->deviator[i];
     for (int axis = 0; axis < 3; axis++)
@@ -150,9 +151,12 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
         strain.zz = -(strain.xx + strain.yy) * (1.0 - 2.0 * shear_square / sound_square);
     const double bulk = p->density[i] * (sound_square - 4.0 / 3.0 * shear_square);
     *elastic = 0.0;
-    if (strength_is_solid(strength) && !failed) {
-        struct motion motion = {
-            .dt = ahead, .density = p->density[i], .strain_rate = strain, .spin = spin};
+    if (strength_is_solid(strength) && !rubble) {
+        struct motion motion = {.dt = ahead,
+                                .density = p->density[i],
+                                .strain_rate = strain,
+                                .spin = spin,
+                                .pressure = p->pressure[i]};
         struct point point = {p->density[i], p->energy[i], p->pressure[i], start, {0.0}};
         double flowed = 0.0;
         if (strength_is_plain(strength)) {
@@ -167,7 +171,7 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
             *elastic = firmness_of(f, i) * far_from_axis(simulation, f, i);
     }
     double pressure = ahead * bulk * sym3_trace(strain);
-    if (failed && p->history[HISTORY_void_ratio][i] > 0.0)
+    if (failed && p->history[HISTORY_void_ratio] && p->history[HISTORY_void_ratio][i] > 0.0)
         pressure = 0.0; /* voids open or close */
     stress = sym3_add(stress, sym3_scale(-1.0, start));
     stress.xx += pressure;
