@@ -293,11 +293,12 @@ static const struct answer answers[] = {
      "eos: tillotson goes from solid to vapour, and Johnson-Cook strength vanishes at `melt`.\n"
      "Solid-solid transitions, latent heat and melting curves are not available.",
      "materials.md"},
-    {" ceramic glass brittle tile pane jh2 jh.2 jh-2 holmquist ",
+    {" ceramic glass brittle failure.wave tile pane jh2 jh.2 jh-2 holmquist ",
      "strength: johnson-holmquist is JH-2, with damage and bulking. The library has its constants\n"
      "for boron carbide, alumina, aluminium nitride and float glass (names that end in -jh2):\n"
      "  materials: {tile: {library: boron-carbide-jh2}}\n"
-     "Concrete has a model of its own (strength: hjc).",
+     "Failure waves in glass: strength: failure-wave (library: glass-failure-wave). Concrete\n"
+     "has a model of its own (strength: hjc).",
      "brittle.md"},
     {" time.step timestep time.step.size cfl courant.number ",
      "The solver chooses the step: the time that a wave takes to cross a particle or a cell, "

@@ -3,6 +3,7 @@
 
 #include "exact/elastic_plastic_impact.h"
 #include "exact/elastic_plastic_riemann.h"
+#include "exact/failure_wave.h"
 #include "exact/gas_expansion.h"
 #include "exact/gas_riemann.h"
 #include "exact/impedance_match.h"

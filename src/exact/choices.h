@@ -27,6 +27,8 @@
       "a slab of explosive ignited at a rigid wall: the front and the rarefaction after it")      \
     X(znd, "znd", "a steady detonation with its reaction zone (Zeldovich, von Neumann, Doering)") \
     X(verney, "verney", "a thick plastic cylinder that collapses until it stops")                 \
+    X(failure_wave, "failure-wave",                                                               \
+      "glass that runs into a rigid wall: the elastic wave and a failure wave behind it")         \
     X(long_rod, "long-rod", "a long rod that erodes in a thick target, Alekseevskii-Tate")        \
     X(temperature_jump, "temperature-jump",                                                       \
       "heat conduction between two bodies of different temperature, in an infinite or an "        \

@@ -379,8 +379,8 @@ BOLIDE_INLINE void material_complete(struct material *material)
     strength_take(&material->strength, density, &rest);
 }
 
-/* The elastic limit that uniaxial strain at RATE, 1/s, has by a strength that is given one, Pa; NAN:
- * it has none. */
+/* The elastic limit in uniaxial strain at RATE, 1/s, that follows from the constants of a strength
+ * with a given limit, Pa; NAN: it has none. */
 BOLIDE_INLINE double material_elastic_limit(const struct material *material, double rate)
 {
     const double none[POINT_HISTORY] = {0.0}, density = material_density(material);

@@ -37,7 +37,8 @@ struct motion {
     double viscous_pressure;
     double time, length; /* at the end of the step, s; of the point, its diameter or spacing, m */
     double compaction;   /* rho/rho_0 lost to pores that closed in the step; the material sets it */
-    double pressure;     /* before the step, where the strength asks; the material sets it */
+    double damage_gradient; /* |grad D| of damage that spreads, 1/m; the solver supplies it */
+    double pressure;        /* before the step, where the strength asks; the material sets it */
 };
 
 /* What the Riemann problem and the time step need of a point: longitudinal and shear sound speed

@@ -8,6 +8,7 @@
 #define BOLIDE_STRENGTH_H
 
 #include "material/strength/drucker_prager.h"
+#include "material/strength/failure_wave.h"
 #include "material/strength/hjc.h"
 #include "material/strength/johnson_cook.h"
 #include "material/strength/johnson_holmquist.h"
@@ -16,22 +17,24 @@
 /* X(identifier): in strength/<identifier>.h struct strength_<identifier>, strength_<identifier>(),
  * strength_<identifier>_yield(), strength_<identifier>_traits(), and the name, help and parameters
  * STRENGTH_<identifier>_NAME, _HELP and _PARAMETERS (see choices.c). */
-#define STRENGTH_LIST(X, ...)         \
-    X(perfect_plastic, ##__VA_ARGS__) \
-    X(johnson_cook, ##__VA_ARGS__)    \
-    X(drucker_prager, ##__VA_ARGS__)  \
-    X(hjc, ##__VA_ARGS__)             \
-    X(johnson_holmquist, ##__VA_ARGS__)
+#define STRENGTH_LIST(X, ...)           \
+    X(perfect_plastic, ##__VA_ARGS__)   \
+    X(johnson_cook, ##__VA_ARGS__)      \
+    X(drucker_prager, ##__VA_ARGS__)    \
+    X(hjc, ##__VA_ARGS__)               \
+    X(johnson_holmquist, ##__VA_ARGS__) \
+    X(failure_wave, ##__VA_ARGS__)
 
 /* The plain ones: they remember the plastic strain alone and leave the pressure as it is. Hot loops
  * are compiled for each of them. */
 #define STRENGTH_PLAIN(X, ...) X(perfect_plastic, ##__VA_ARGS__)
 
 /* Those with a step of many points at once, strength_<identifier>_batch(): see batch.h. */
-#define STRENGTH_BATCHED(X, ...)      \
-    X(perfect_plastic, ##__VA_ARGS__) \
-    X(johnson_cook, ##__VA_ARGS__)    \
-    X(johnson_holmquist, ##__VA_ARGS__)
+#define STRENGTH_BATCHED(X, ...)        \
+    X(perfect_plastic, ##__VA_ARGS__)   \
+    X(johnson_cook, ##__VA_ARGS__)      \
+    X(johnson_holmquist, ##__VA_ARGS__) \
+    X(failure_wave, ##__VA_ARGS__)
 
 /* Those that heat softens: strength_<identifier>_homologous(). */
 #define STRENGTH_SOFTENED(X, ...) X(johnson_cook, ##__VA_ARGS__)
@@ -105,6 +108,20 @@ BOLIDE_INLINE bool strength_takes_pressure(const struct strength *strength)
 BOLIDE_INLINE bool strength_breaks(const struct strength *strength)
 {
     return strength_traits(strength).breaks;
+}
+
+/* Whether its damage spreads. */
+BOLIDE_INLINE bool strength_spreads(const struct strength *strength)
+{
+    return strength_traits(strength).spread_speed > 0.0;
+}
+
+/* The step, s, in which damage that spreads grows accurately on particles of SIZE, m: a simple step
+ * of larger ones makes its front slow. INFINITY: none spreads. */
+BOLIDE_INLINE double strength_spread_step(const struct strength *strength, double size)
+{
+    const double speed = strength_traits(strength).spread_speed, courant = 0.08;
+    return speed > 0.0 ? courant * size / speed : (double)INFINITY;
 }
 
 /* Whether it is none or a plain model. */

@@ -13,7 +13,14 @@
 #include "mpm/mpm_internal.h"
 
 /* Conditions of the fields. */
-enum { MPM_AFFINE = 1, MPM_CONSERVES = 2, MPM_FILTERS = 4, MPM_MIXES = 8, MPM_GAUGED = 16 };
+enum {
+    MPM_AFFINE = 1,
+    MPM_CONSERVES = 2,
+    MPM_FILTERS = 4,
+    MPM_MIXES = 8,
+    MPM_GAUGED = 16,
+    MPM_SPREADS = 32
+};
 
 static const struct field_row field_rows[] = {
     {.field = {"sound_long", "m/s", "longitudinal sound speed", NUMBER_DOUBLE, 1, FIELD_DERIVED},
@@ -44,13 +51,17 @@ static const struct field_row field_rows[] = {
      .when = MPM_GAUGED,
      .where = "gauge_pressure",
      .offset = offsetof(struct mpm_fields, ambient)},
+    {.field = {"damage_gradient", NULL, "gradient of damage that spreads", NUMBER_DOUBLE, 1,
+               FIELD_PASSING},
+     .when = MPM_SPREADS,
+     .offset = offsetof(struct mpm_fields, damage_gradient)},
     FIELD_ROWS_END,
 };
 enum { MPM_FIELDS = COUNT_OF(field_rows) - 1 };
 
-static struct field_needs needs_of(const struct mpm_parameters *parameters)
+static struct field_needs needs_of(const struct mpm_parameters *parameters, bool spreads)
 {
-    unsigned conditions = 0;
+    unsigned conditions = spreads ? MPM_SPREADS : 0;
     if (parameters->transfer != MPM_FLIP)
         conditions |= MPM_AFFINE;
     if (mpm_conserves(parameters))
@@ -66,7 +77,7 @@ static struct field_needs needs_of(const struct mpm_parameters *parameters)
 
 struct mpm_fields mpm_fields_of(const struct mpm *mpm)
 {
-    const struct field_needs needs = needs_of(&mpm->parameters);
+    const struct field_needs needs = needs_of(&mpm->parameters, mpm->spreads);
     struct mpm_fields fields;
     field_rows_bind(field_rows, &needs, mpm->particles, &fields);
     return fields;
@@ -89,6 +100,7 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
 {
     struct mpm *mpm = solver;
     mpm->parameters = mpm_settled(parameters, simulation);
+    mpm->spreads = mpm_any_spreads(simulation);
     mpm->edge = mpm->parameters.cell;
     TRY(error_join(mpm_note_bodies(mpm, parameters, simulation), mpm_find_planes(mpm, simulation)));
     TRY(mpm_share_layers(mpm, simulation));
@@ -96,7 +108,7 @@ static struct error *mpm_create(void *solver, struct simulation *simulation, con
     mpm_note_mixtures(mpm, simulation);
     mpm_note_surfaces(mpm);
     struct field_declaration fields[POINT_HISTORY + MPM_FIELDS];
-    const struct field_needs needs = needs_of(&mpm->parameters);
+    const struct field_needs needs = needs_of(&mpm->parameters, mpm->spreads);
     int count = problem_history(simulation->problem, fields);
     count += field_rows_declare(field_rows, &needs, fields + count);
     TRY(particles_add(simulation, mpm->edge, fields, count, &mpm->particles));
@@ -178,7 +190,7 @@ double mpm_bytes(const void *parameters, int dimension)
     struct mpm_parameters most = *of; /* what is left to the method may need its fields */
     most.shock_mixing = isnan(of->shock_mixing) ? 1.0 : of->shock_mixing;
     most.viscosity_unresolved = isnan(of->viscosity_unresolved) ? 1.0 : of->viscosity_unresolved;
-    const struct field_needs needs = needs_of(&most);
+    const struct field_needs needs = needs_of(&most, false);
     struct field_declaration declared[MPM_FIELDS];
     struct particles store;
     error_free(particles_create(dimension, 1.0, declared,

@@ -95,6 +95,7 @@ struct mpm {
     bool balances;              /* pressures, in this step */
     double (*given)[2];         /* then, to particles: volume, m^3, and energy, J */
     int64_t given_capacity;
+    bool spreads;                      /* damage of a material, see spread.c */
     bool limits_by_nodes;              /* the step, see limit.c */
     struct halo halo;                  /* of several ranks only */
     const struct mpm_outside *outside; /* NULL: nothing */
@@ -144,8 +145,8 @@ BOLIDE_INLINE struct shape_window mpm_window(const struct mpm *mpm,
 struct mpm_fields {
     double *sound_long, *viscosity;
     double (*velocity_gradient)[9]; /* NULL: particles carry none */
-    double *at_state, *divergence, *shock,
-        *ambient; /* NULL likewise; see point_kernel.h, transfer.h */
+    double *at_state, *divergence, *shock, *ambient,
+        *damage_gradient; /* NULL likewise; see point_kernel.h, transfer.h */
 };
 struct mpm_fields mpm_fields_of(const struct mpm *mpm);
 
@@ -249,6 +250,13 @@ void mpm_note_mixtures(struct mpm *mpm, const struct simulation *simulation);
  * sums of the second field are lost. Then they take it. */
 struct error *mpm_balance_pressures(struct mpm *mpm, struct simulation *simulation, double dt);
 void mpm_take_given(const struct mpm *mpm, const struct simulation *simulation);
+
+/* Whether damage of a material spreads. Collective: gradients of that, see spread.c; the second
+ * field is lost. */
+bool mpm_any_spreads(const struct simulation *simulation);
+void mpm_find_spread(struct mpm *mpm, struct simulation *simulation);
+/* The step that its fastest front allows; INFINITY where none spreads. */
+double mpm_spread_step(const struct mpm *mpm, const struct simulation *simulation);
 /* The step of the nodes (2-13), and what walls push in it. */
 void mpm_advance_nodes(const struct mpm *mpm, struct simulation *simulation, struct layer *layer,
                        double dt);

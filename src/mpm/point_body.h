@@ -44,7 +44,8 @@ BOLIDE_INLINE void point_advance(const struct point_loop *loop, const struct mat
     const struct vec3 spin = vec3_make(rate[6], rate[7], rate[8]);
     motion.spin = spin;
     motion.density = loop->density[i] / (1.0 + loop->dt * divergence); /* (2-20) */
-    motion.energy = motion.compaction = 0.0;
+    motion.energy = motion.compaction = motion.pressure = 0.0;
+    motion.damage_gradient = loop->damage_gradient ? loop->damage_gradient[i] : 0.0;
     point.density = loop->density[i];
     point.energy = loop->energy[i];
     point.pressure = loop->pressure[i];
@@ -102,6 +103,7 @@ BOLIDE_INLINE void points_load(const struct point_loop *loop, const int32_t *lis
         b->energy[k] = loop->energy[i];
         b->pressure[k] = loop->pressure[i];
         batch_load_history(b, k, loop->history, i);
+        b->damage_gradient[k] = loop->damage_gradient ? loop->damage_gradient[i] : 0.0;
         b->viscous_pressure[k] = loop->viscosity[i];
         b->sound_long[k] = loop->sound[i];
         b->length[k] = 2.0 * loop->half_size[loop->body[i]] * loop->edge;

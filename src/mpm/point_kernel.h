@@ -16,6 +16,7 @@ struct point_loop {
     double *history[POINT_HISTORY];    /* by slot, NULL where the store has none */
     double *sound, *viscosity, *shock; /* shock: NULL where none is mixed */
     const double (*position)[3], (*velocity)[3];
+    const double *damage_gradient; /* NULL where no damage spreads */
     const double *rate;
     size_t rate_stride;
     double dt, time, edge; /* time: at the end of the step */

@@ -51,6 +51,7 @@ static struct point_loop loop_of(const struct mpm *mpm, const struct simulation 
                               .shock = fields.shock,
                               .position = (const double(*)[3])p->position,
                               .velocity = (const double(*)[3])p->velocity,
+                              .damage_gradient = fields.damage_gradient,
                               .rate = rate,
                               .rate_stride = (size_t)mpm->rate_capacity,
                               .dt = dt,

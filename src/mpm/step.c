@@ -55,7 +55,9 @@ struct transfer mpm_transfer_of(const struct mpm *mpm, const struct simulation *
                              .reaction = mpm->reaction,
                              .courant = mpm->courant,
                              .balances = mpm->balances_of,
-                             .ambient = fields.ambient};
+                             .ambient = fields.ambient,
+                             .damage = p->history[HISTORY_damage],
+                             .damage_gradient = fields.damage_gradient};
 }
 
 static struct error *find_bins(struct mpm *mpm, struct simulation *simulation)
@@ -256,9 +258,12 @@ struct error *mpm_prepare(void *solver, struct simulation *simulation, struct li
     const double allowed = mpm->limit_before > 0.0
                                ? step_growth * mpm->limit_before
                                : first_way * mpm->edge / largest_speed(simulation, mpm->particles);
-    mpm->limit = minimum(limit->dt, allowed);
+    const double spread = mpm_spread_step(mpm, simulation);
+    mpm->limit = minimum(minimum(limit->dt, allowed), spread);
     if (allowed < limit->dt)
         *limit = (struct limit){allowed, "growth of the step", limit->id, INFINITY};
+    if (spread < limit->dt)
+        *limit = (struct limit){spread, "failure wave", limit->id, INFINITY};
     limit->event = next_event(simulation);
     simulation_end_phase(simulation, PHASE_SHARED, "time step");
     return NULL;
@@ -351,6 +356,7 @@ struct error *mpm_advance(void *solver, struct simulation *simulation, double dt
     mpm_book_gravity(mpm, simulation, dt, true);
     mpm_mix_shocks(mpm, simulation, dt);
     TRY(mpm_balance_pressures(mpm, simulation, dt));
+    mpm_find_spread(mpm, simulation);
     if (scheme == MPM_USF) {
         TRY(ranks_agree(simulation->ranks, update_states(mpm, simulation, dt, true)));
         TRY(sum_particles(mpm, simulation));

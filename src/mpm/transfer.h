@@ -54,6 +54,9 @@ enum {
 /* And while the step limit is found, sums of m c^2, m K and m; the first is then c/K. */
 enum { SPEED_STIFFNESS = 0, SPEED_SOUND = 0, SPEED_COURANT = 1, SPEED_MASS = 2 };
 
+/* And while damage spreads (spread.c), sums of m D and m of what spreads it; then D. */
+enum { SPREAD_DAMAGE = 0, SPREAD_MASS = 1 };
+
 /* A patch of stresses has for each axis of a node the face between it and the next node along the
  * axis: what stresses push through it, and the part of it that particles fill. The second stands
  * in a field of its own too, by axis, and becomes there what the first is multiplied by. */
@@ -108,6 +111,10 @@ struct transfer {
     double balance_dt, largest_pressure, (*given)[2];
     /* of each particle, the work of that pressure per mass; NULL where there is none */
     double *ambient;
+    /* where damage spreads: of each particle, and its gradient, 1/m; of each material, whether */
+    const double *damage;
+    double *damage_gradient;
+    const bool *spreads;
 };
 
 /* Fills the patch of BIN with the mass, momentum and force of its particles (2-9)-(2-12); by faces
@@ -159,6 +166,11 @@ void transfer_balance(const struct transfer *transfer, int32_t bin);
  * reaches; seven numbers behind the last are written too. */
 void transfer_stiffness(const struct transfer *transfer, int32_t bin);
 void transfer_speed(const struct transfer *transfer, int32_t bin, double *sound);
+
+/* Damage that spreads (spread.c). The first fills the patch of BIN in BACK with the sums SPREAD_...
+ * of its particles; the second gives particles their gradients from the sums of the nodes. */
+void transfer_damage(const struct transfer *transfer, int32_t bin);
+void transfer_spread(const struct transfer *transfer, int32_t bin);
 
 /* Particles of BIN take the heat that nodes have in the patch of BACK. */
 void transfer_warm(const struct transfer *transfer, int32_t bin);

@@ -9,6 +9,7 @@
 #include "mpm/transfer_body.h"
 #include "mpm/transfer_mixing.h"
 #include "mpm/transfer_speed.h"
+#include "mpm/transfer_spread.h"
 
 #ifndef WINDOW
 #define WINDOW 4 /* for scripts/check-headers, which compiles each header alone */
@@ -95,6 +96,18 @@ KERNEL(transfer_stiffness, const struct transfer *t, int32_t bin){
 
 KERNEL(transfer_speed, const struct transfer *t, int32_t bin, double *sound){
 #define CALL(dimension) bin_speed(t, kind_make(dimension, WINDOW, 1 << dimension), bin, sound)
+    BY_DIMENSION(t, CALL)
+#undef CALL
+}
+
+KERNEL(transfer_damage, const struct transfer *t, int32_t bin){
+#define CALL(dimension) bin_damage(t, kind_make(dimension, WINDOW, 1 << dimension), bin)
+    BY_DIMENSION(t, CALL)
+#undef CALL
+}
+
+KERNEL(transfer_spread, const struct transfer *t, int32_t bin){
+#define CALL(dimension) bin_spread(t, kind_make(dimension, WINDOW, 1 << dimension), bin)
     BY_DIMENSION(t, CALL)
 #undef CALL
 }

@@ -49,6 +49,10 @@ CHOOSE(transfer_stiffness, (const struct transfer *transfer, int32_t bin), (tran
 CHOOSE(transfer_speed, (const struct transfer *transfer, int32_t bin, double *sound),
        (transfer, bin, sound))
 
+CHOOSE(transfer_damage, (const struct transfer *transfer, int32_t bin), (transfer, bin))
+
+CHOOSE(transfer_spread, (const struct transfer *transfer, int32_t bin), (transfer, bin))
+
 CHOOSE(transfer_warm, (const struct transfer *transfer, int32_t bin), (transfer, bin))
 
 CHOOSE(transfer_gradient,

@@ -64,8 +64,8 @@ static void judge_explosives(struct findings *findings)
     }
 }
 
-/* Strength whose constants do not give the elastic limit that they are scaled by: at the strain rate
- * of a shock, 1/s, and within what published sets that are consistent deviate by. */
+/* Strength whose constants contradict the elastic limit that scales them, at the strain rate of a
+ * shock, 1/s. Published sets that are consistent deviate by less than the tolerance. */
 static void judge_limits(struct findings *findings)
 {
     const struct simulation_case *input = findings->input;

@@ -15,6 +15,7 @@
 #include "sph/layout.h"
 #include "sph/ring.h"
 #include "sph/sph.h"
+#include "sph/spread/spread.h"
 
 /* What decides which fields exist, and how a step goes on. */
 enum sph_trait {
@@ -38,6 +39,7 @@ enum sph_trait {
     SPH_PERIODIC = 1 << 17, /* an axis is periodic */
     SPH_BREAKS = 1 << 18,   /* contacts break */
     SPH_BODIES = 1 << 19,   /* there are several bodies */
+    SPH_SPREADS = 1 << 20,  /* damage of a material spreads */
 };
 
 /* Components that depend on the run: of a symmetric tensor and of a gradient of velocity in its
@@ -51,7 +53,8 @@ struct sph_fields {
     double *sound_long, *sound_shear;
     double *thickness; /* relative to the start; plane stress only */
     struct pair_rates rates;
-    double *heat_rate; /* dE/dt by conduction, W/kg; NULL without */
+    double *heat_rate;       /* dE/dt by conduction, W/kg; NULL without */
+    double *damage_gradient; /* |grad D|, 1/m; NULL where no damage spreads */
     /* NULL where the scheme has none: */
     double *viscosity;    /* artificial viscous pressure (2.5), Pa */
     double *density_rate; /* kg/(m^3 s) */
@@ -159,6 +162,7 @@ struct sph {
     bool places;
     int64_t place_capacity; /* in records */
     struct conduction conduction;
+    struct spread spread;
     struct loads *loads; /* NULL: the case has none */
 };
 
@@ -303,20 +307,24 @@ void sph_sweep(struct sph *sph, struct simulation *simulation, const struct sph_
 
 /* Collective: the smallest of the steps that LIMIT_OF allows the particles; of equal ones that of
  * the smallest id. */
-enum sph_limit { SPH_LIMIT_SOUND, SPH_LIMIT_VOLUME_RATE, SPH_LIMIT_CONDUCTION };
+enum sph_limit { SPH_LIMIT_SOUND, SPH_LIMIT_VOLUME_RATE, SPH_LIMIT_CONDUCTION, SPH_LIMIT_SPREAD };
 typedef struct ranked sph_limit_of(const struct sph *sph, const struct simulation *simulation,
                                    const void *context, int32_t i);
 struct limit sph_smallest_limit(const struct sph *sph, const struct simulation *simulation,
                                 sph_limit_of *limit_of, const void *context);
 
-/* K D/sqrt(C^2 + (4 D div U)^2) (1.87) of particle I. */
+/* K D/sqrt(C^2 + (4 D div U)^2) (1.87) of particle I, or what a failure wave allows. */
 BOLIDE_INLINE struct ranked sph_courant_limit(const struct sph *sph, const struct sph_fields *f,
                                               double divergence, int32_t i)
 {
     const double diameter = f->diameter[i], stretch = 4.0 * diameter * divergence;
-    return (struct ranked){
-        sph->parameters.courant * diameter / sqrt(square(f->sound_long[i]) + square(stretch)), 0,
-        fabs(stretch) > f->sound_long[i] ? SPH_LIMIT_VOLUME_RATE : SPH_LIMIT_SOUND};
+    const double sound =
+        sph->parameters.courant * diameter / sqrt(square(f->sound_long[i]) + square(stretch));
+    const double front = diameter / sph->spread.pace;
+    return (struct ranked){minimum(sound, front), 0,
+                           front < sound                      ? SPH_LIMIT_SPREAD
+                           : fabs(stretch) > f->sound_long[i] ? SPH_LIMIT_VOLUME_RATE
+                                                              : SPH_LIMIT_SOUND};
 }
 
 /* update.c. Thickness, diameter, support, pressure and sound speeds of all particles as they stand.

@@ -86,10 +86,11 @@ static unsigned traits_of(const struct sph *sph, const struct simulation *simula
     unsigned traits =
         sph->scheme->traits(sph->parameters.method.value, simulation->problem->dimension);
     struct field_declaration history[POINT_HISTORY];
-    bool strong = false, fails = false;
+    bool strong = false, fails = false, spreads = false;
     for (int m = 0; m < simulation->problem->materials; m++) {
         strong |= material_has_strength(&simulation->problem->material[m]);
         fails |= material_breaks(&simulation->problem->material[m]);
+        spreads |= strength_spreads(&simulation->problem->material[m].strength);
     }
     traits |= has_walls(simulation) ? SPH_WALLS : 0u;
     traits |= images_periodic(&simulation->problem->images) ? SPH_PERIODIC : 0u;
@@ -97,6 +98,7 @@ static unsigned traits_of(const struct sph *sph, const struct simulation *simula
     traits |= simulation->problem->geometry == GEOMETRY_PLANE_STRESS ? SPH_THIN : 0u;
     traits |= simulation->problem->dimension > 1 ? SPH_PLANE : 0u;
     traits |= strong && simulation->problem->dimension > 1 ? SPH_SHEAR : 0u;
+    traits |= spreads ? SPH_SPREADS : 0u;
     traits |= fails && sph->scheme->breaks ? SPH_BREAKS : 0u;
     traits |= simulation->problem->input->bodies.count > 1 ? SPH_BODIES : 0u;
     traits |= problem_history(simulation->problem, history) > 0 ? SPH_HISTORY : 0u;
@@ -155,6 +157,7 @@ static struct error *sph_create(void *solver, struct simulation *simulation, con
         return out_of_memory();
     TRY(sph->scheme->create(sph, simulation));
     TRY(conduction_create(sph, simulation));
+    spread_create(sph, simulation);
     TRY(sph_create_loads(sph, simulation));
     return create_store(sph, simulation);
 }
@@ -182,8 +185,10 @@ static struct error *sph_prepare(void *solver, struct simulation *simulation, st
     TRY(sph_refresh_lists(sph, simulation, &rebuilt));
     if (simulation->step == 0 && sph->cluster)
         TRY(sph_find_clusters(sph, simulation));
-    if (rebuilt && (sph->scheme->rebuilt || sph_has(sph, SPH_CONDUCTION))) {
+    if (rebuilt) {
         struct error *error = sph_has(sph, SPH_CONDUCTION) ? conduction_reserve(sph) : NULL;
+        if (!error && sph_has(sph, SPH_SPREADS))
+            error = spread_reserve(sph);
         if (!error && sph->scheme->rebuilt)
             error = sph->scheme->rebuilt(sph, simulation);
         TRY(ranks_agree(simulation->ranks, error));
@@ -194,6 +199,10 @@ static struct error *sph_prepare(void *solver, struct simulation *simulation, st
     if (sph_has(sph, SPH_CONDUCTION)) {
         const struct sph_fields fields = sph_fields_of(sph, simulation);
         conduction_prepare(sph, simulation, &fields, limit);
+    }
+    if (sph_has(sph, SPH_SPREADS)) {
+        const struct sph_fields fields = sph_fields_of(sph, simulation);
+        spread_prepare(sph, simulation, &fields);
     }
     limit->event = next_event(simulation);
     return NULL;
@@ -223,6 +232,7 @@ static void sph_destroy(void *solver)
     struct sph *sph = solver;
     neighbours_free(&sph->neighbours);
     conduction_destroy(sph);
+    spread_destroy(sph);
     sph_free_loads(sph);
     if (sph->state && sph->scheme->destroy)
         sph->scheme->destroy(sph);

@@ -20,7 +20,8 @@ void sph_sweep(struct sph *sph, struct simulation *simulation, const struct sph_
 
 static const char *const limit_reasons[] = {[SPH_LIMIT_SOUND] = "sound speed",
                                             [SPH_LIMIT_VOLUME_RATE] = "volume rate",
-                                            [SPH_LIMIT_CONDUCTION] = "conduction"};
+                                            [SPH_LIMIT_CONDUCTION] = "conduction",
+                                            [SPH_LIMIT_SPREAD] = "failure wave"};
 
 struct limit sph_smallest_limit(const struct sph *sph, const struct simulation *simulation,
                                 sph_limit_of *limit_of, const void *context)

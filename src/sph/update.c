@@ -220,6 +220,7 @@ static void step_point(struct particles *p, const struct advance *step,
     motion.time = step->time;
     motion.length = f->diameter[i];
     motion.acceleration = vector_at(f->rates.acceleration[i]);
+    motion.damage_gradient = f->damage_gradient ? f->damage_gradient[i] : 0.0;
     particle_load_history(p, i, point.history);
     const struct response r = f->thickness
                                   ? sph_thin_step(passage->material, plane[0] + plane[1] + plane[2],
@@ -249,6 +250,7 @@ static void step_batch(struct particles *p, const struct advance *step, struct p
         b->energy[k] = b->energy[from];
         b->viscous_pressure[k] = 0.0;
         b->length[k] = f->diameter[i];
+        b->damage_gradient[k] = f->damage_gradient ? f->damage_gradient[i] : 0.0;
         batch_keep_tensor(b->deviator, k, sym3_make(p->deviator[i]));
         batch_keep_tensor(b->strain_rate, k, batch_tensor(b->strain_rate, from));
         for (int c = 0; c < 3; c++)

@@ -46,7 +46,7 @@ for file in "$library"/*.yaml; do
     name=$(basename "$file" .yaml)
     "$BOLIDE" materials "$name" | head -c "$(stat -c %s "$file")" | cmp -s - "$file" || { echo "FAILED: materials $name is not $file"; status=1; }
 done
-rows=$("$BOLIDE" materials | grep -c -E ' (none|perfect-plastic|johnson-cook|drucker-prager|hjc|johnson-holmquist) ')
+rows=$("$BOLIDE" materials | grep -c -E ' (none|perfect-plastic|johnson-cook|drucker-prager|hjc|johnson-holmquist|failure-wave) ')
 [ "$rows" = "$(ls "$library"/*.yaml | wc -l)" ] || { echo "FAILED: the table has $rows rows"; status=1; }
 
 # A broken file costs its own row only; a share without a library falls back to that of the build.

@@ -18,6 +18,9 @@ struct strength_traits {
     bool limits_tension;
     /* Its damage breaks it: at one, a point has failed. */
     bool breaks;
+    /* The speed at which its damage spreads, m/s: the solver supplies the gradient, and damage at
+     * the surface. 0: it does not. */
+    double spread_speed;
     /* It has a step of many points at once. */
     bool batched;
     /* The specific heat by which it computes temperatures, J/(kg K); NAN: it has none. */
@@ -29,7 +32,7 @@ struct strength_traits {
 /* The traits of a model that says no more. */
 BOLIDE_INLINE struct strength_traits strength_default_traits(void)
 {
-    struct strength_traits traits = {0, false, false, false, false, (double)NAN, NULL, NULL};
+    struct strength_traits traits = {0, false, false, false, 0.0, false, (double)NAN, NULL, NULL};
     return traits;
 }
 
@@ -50,7 +53,7 @@ struct batch {
     double strain_rate[6][BATCH], spin[3][BATCH], deviator[6][BATCH], new_deviator[6][BATCH];
     double plastic_strain[BATCH], plastic_heating[BATCH];
     double damage[BATCH], void_ratio[BATCH], scatter[BATCH]; /* where the material fails */
-    double bulking[BATCH];
+    double bulking[BATCH], damage_gradient[BATCH];
     /* after the step, for strength that takes the pressure: at the energy that is known */
     double trial[BATCH];
     uint64_t failing[BATCH]; /* points that it leaves to be taken by themselves */
@@ -83,7 +86,7 @@ BOLIDE_INLINE void batch_load_history(struct batch *b, int k, double *const hist
                  *overload = history[HISTORY_overload];
     b->plastic_strain[k] = history[HISTORY_plastic_strain][i];
     b->plastic_heating[k] = heating ? heating[i] : 0.0;
-    b->damage[k] = voids || bulking ? history[HISTORY_damage][i] : 0.0;
+    b->damage[k] = history[HISTORY_damage] ? history[HISTORY_damage][i] : 0.0;
     b->bulking[k] = bulking ? bulking[i] : 0.0;
     b->void_ratio[k] = voids ? voids[i] : 0.0;
     b->scatter[k] = scatter ? scatter[i] : 0.0;
@@ -96,7 +99,7 @@ BOLIDE_INLINE void batch_keep_history(const struct batch *b, int k,
     history[HISTORY_plastic_strain][i] = b->plastic_strain[k];
     if (history[HISTORY_plastic_heating])
         history[HISTORY_plastic_heating][i] = b->plastic_heating[k];
-    if (history[HISTORY_void_ratio] || history[HISTORY_bulking])
+    if (history[HISTORY_damage])
         history[HISTORY_damage][i] = b->damage[k];
     if (history[HISTORY_void_ratio])
         history[HISTORY_void_ratio][i] = b->void_ratio[k];

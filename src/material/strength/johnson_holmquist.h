@@ -87,6 +87,13 @@ BOLIDE_INLINE void strength_johnson_holmquist_take(struct strength_johnson_holmq
         solid->most = INFINITY;
 }
 
+/* The overstress that flows: less is noise of what is at rest, by which failed material without
+ * pressure would flow. */
+BOLIDE_INLINE double johnson_holmquist_noise(const struct strength_johnson_holmquist *solid)
+{
+    return 1e-13 * solid->shear_modulus;
+}
+
 /* sigma_HEL, Pa. */
 BOLIDE_INLINE double johnson_holmquist_unit(const struct strength_johnson_holmquist *solid)
 {
@@ -112,9 +119,12 @@ BOLIDE_INLINE struct johnson_holmquist_surface johnson_holmquist_surface(
     const double pulled = (pressure + solid->tension) / solid->hel_pressure;
     const double relative = pressure / solid->hel_pressure;
     struct johnson_holmquist_surface surface;
-    surface.intact = unit * (haste * solid->a * power(pulled, solid->n));
+    const double log_pulled = logarithm(maximum(pulled, 1e-100)); /* of two powers */
+    const double intact = exponential(solid->n * log_pulled),
+                 strain = exponential(solid->d2 * log_pulled);
+    surface.intact = pulled > 0.0 ? unit * (haste * solid->a * intact) : 0.0;
     surface.fractured = unit * minimum(haste * solid->b * power(relative, solid->m), solid->most);
-    surface.strain = solid->d1 * power(pulled, solid->d2);
+    surface.strain = pulled > 0.0 ? solid->d1 * strain : 0.0;
     return surface;
 }
 
@@ -297,10 +307,11 @@ BOLIDE_INLINE void strength_johnson_holmquist(const struct strength_johnson_holm
     struct sym3 s = trial;
     if (solid->order == JOHNSON_HOLMQUIST_SUBSTEP) {
         const double yield = johnson_holmquist_strength(solid, at.pressure, at.damage, at.haste);
-        if (mises > yield && at.damage < 1.0) {
+        const bool flows = mises - yield > johnson_holmquist_noise(solid);
+        if (flows && at.damage < 1.0) {
             s = johnson_holmquist_fail(solid, motion, bulk_modulus, mises - yield, point->deviator,
                                        trial, &at);
-        } else if (mises > yield) {
+        } else if (flows) {
             at.strain += (mises - yield) / (3.0 * solid->shear_modulus);
             s = sym3_scale(yield / mises, trial);
         }
@@ -335,7 +346,7 @@ BOLIDE_INLINE void strength_johnson_holmquist_batch(const struct strength_johnso
             johnson_holmquist_haste(solid, strength_strain_rate(motion.strain_rate));
         const double yield = johnson_holmquist_strength(solid, b->trial[k], damage, haste);
         const double over = mises - yield;
-        const bool flows = over > 0.0, failed = damage >= 1.0;
+        const bool flows = over > johnson_holmquist_noise(solid), failed = damage >= 1.0;
         b->plastic_strain[k] += flows && failed ? over / (3.0 * solid->shear_modulus) : 0.0;
         batch_keep_tensor(b->new_deviator, k,
                           sym3_scale(flows && failed ? yield / mises : 1.0, trial));

@@ -63,7 +63,9 @@ BOLIDE_INLINE bool step_from_level(const struct simulation *simulation,
         p->position[i][axis] = n->position[axis] + dt * stage->velocity[axis];
         p->velocity[i][axis] = n->velocity[axis] + dt * rate->acceleration[axis];
     }
+    const double *gradient = f->sph.damage_gradient;
     struct motion motion = {.dt = dt,
+                            .damage_gradient = gradient ? gradient[i] : 0.0,
                             .density = n->density + dt * rate->density,
                             .energy = n->energy + dt * rate->power,
                             .spin = {rate->spin[0], rate->spin[1], rate->spin[2]},
