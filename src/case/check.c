@@ -7,6 +7,7 @@
 #include "case/checking.h"
 #include "exact/exact.h"
 #include "material/material.h"
+#include "material/whole.h"
 #include "shape/lattice.h"
 
 void case_check_axis(struct checking *checking, const char *key, int axis)

@@ -7,6 +7,7 @@
 #include "exact/detonation.h"
 #include "material/any.h"
 #include "material/material.h"
+#include "material/whole.h"
 #include "model/generate.h"
 #include "model/loads.h"
 #include "run/blast_cells.h"

@@ -3,6 +3,7 @@
 #include "dice.h"
 
 #include "material/batch.h"
+#include "material/whole.h"
 
 static const struct strength_johnson_cook hard = {
     .shear_modulus = 81.8e9, .a = 350e6, .b = 275e6, .n = 0.36, .c = 0.022, .rate = 1.0, .m = NAN};

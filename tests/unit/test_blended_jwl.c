@@ -5,6 +5,7 @@
 
 #include "exact/detonation.h"
 #include "material/material.h"
+#include "material/whole.h"
 
 static const struct material petn = {
     .eos = {EOS_blended_jwl, {.blended_jwl = EOS_blended_jwl_SAMPLE}},

@@ -3,6 +3,7 @@
 #include "dice.h"
 
 #include "material/material.h"
+#include "material/whole.h"
 
 enum { STEPS = 4000 };
 

@@ -6,6 +6,7 @@
 
 #include "dice.h"
 #include "material/material.h"
+#include "material/whole.h"
 #include "source_folder.h"
 
 struct set {
