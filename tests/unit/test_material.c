@@ -122,6 +122,24 @@ static void mie_grueneisen_derivatives_are_those_of_its_pressure(void **state)
             check_derivatives(&aluminium, density, energy, 1e6);
 }
 
+static void mie_grueneisen_is_bounded_below_absolute_zero(void **state)
+{
+    (void)state;
+    const double deepest = 0.01 * square(aluminium.eos.of.mie_grueneisen.sound);
+    struct eos source = aluminium.eos;
+    source.of.mie_grueneisen.form = EOS_SOURCE;
+    for (double density = 2450.0; density < 3500.0; density *= 1.01) {
+        const struct eos_value edge = eos_evaluate(&aluminium.eos, density, -deepest, NULL);
+        assert_true(edge.pressure == eos_evaluate(&source, density, -deepest, NULL).pressure);
+        const double least = edge.pressure - edge.dp_de * deepest;
+        for (double energy = -1.0001 * deepest; energy > -1e12; energy *= 2.0) {
+            check_derivatives(&aluminium, density, energy, 1e6);
+            const double p = eos_evaluate(&aluminium.eos, density, energy, NULL).pressure;
+            assert_true(p <= edge.pressure && p >= least - 1e-9 * fabs(least));
+        }
+    }
+}
+
 static void mie_grueneisen_says_when_it_is_compressed_beyond_its_adiabat(void **state)
 {
     (void)state;
@@ -379,6 +397,10 @@ static void the_tensile_part_of_a_stress_has_its_positive_principal_stresses(voi
         off = sym3_add(sym3_tensile_in_plane(s), sym3_scale(-1.0, tensile));
         assert_near(sqrt(sym3_square(off)), 0.0, 1e-6);
     }
+    for (double size = 1.0; size > 0.0; size *= 1e-5) {
+        const struct sym3 s = {size, -0.3 * size, 0.2 * size, 0.5 * size, -0.1 * size, 0.4 * size};
+        assert_true(isfinite(sym3_square(sym3_tensile(s)) + sym3_extreme(s, -1.0)));
+    }
     assert_true(sym3_square(sym3_tensile((struct sym3){0})) == 0.0);
     assert_true(sym3_square(sym3_tensile_in_plane((struct sym3){0})) == 0.0);
 }
@@ -392,6 +414,7 @@ int main(void)
         cmocka_unit_test(mie_grueneisen_has_an_independent_value),
         cmocka_unit_test(mie_grueneisen_is_continuous_where_tension_begins),
         cmocka_unit_test(mie_grueneisen_derivatives_are_those_of_its_pressure),
+        cmocka_unit_test(mie_grueneisen_is_bounded_below_absolute_zero),
         cmocka_unit_test(mie_grueneisen_says_when_it_is_compressed_beyond_its_adiabat),
         cmocka_unit_test(sound_speeds_follow_from_pressure_along_the_isentrope),
         cmocka_unit_test(a_state_without_sound_says_so),

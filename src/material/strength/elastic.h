@@ -57,12 +57,15 @@ BOLIDE_INLINE struct sym3 strength_elastic(double shear_modulus, const struct mo
     return sym3_rotate(s, vec3_scale(motion->dt, motion->spin));
 }
 
+/* Eigenvalues below this are none: their cubes are zero as numbers. */
+BOLIDE_INLINE double sym3_least(void) { return 1e-100; }
+
 /* The largest eigenvalue of a deviator, and the smallest if SIGN is -1 in place of 1 (Smith,
  * Commun. ACM 4 (1961) 168). */
 BOLIDE_INLINE double sym3_extreme(struct sym3 s, double sign)
 {
     double radius = sqrt(sym3_square(s) / 6.0);
-    if (!(radius > 0.0))
+    if (!(radius > sym3_least()))
         return 0.0;
     double determinant = s.xx * (s.yy * s.zz - s.yz * s.yz) - s.xy * (s.xy * s.zz - s.yz * s.zx) +
                          s.zx * (s.xy * s.yz - s.yy * s.zx);
@@ -92,7 +95,7 @@ BOLIDE_INLINE struct sym3 sym3_tensile(struct sym3 s)
     const struct sym3 deviator = {s.xx - mean, s.yy - mean, s.zz - mean, s.xy, s.yz, s.zx};
     const double first = mean + sym3_extreme(deviator, 1.0);
     const double last = mean + sym3_extreme(deviator, -1.0), middle = 3.0 * mean - first - last;
-    if (first <= 0.0)
+    if (first <= sym3_least())
         return (struct sym3){0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     if (last >= 0.0)
         return s;
