@@ -192,8 +192,9 @@ BOLIDE_INLINE void bin_again(const struct transfer *t, struct kind kind, int32_t
     for (int cell = 0; cell < BLOCK_CELLS; cell++) {
         const struct cell_walk walk = cell_of(t, kind, &corner, bin, cell);
         struct chunk chunk;
-        vector8 sum[NODES_MAX];
-        vector8_clear(sum, walk.count ? nodes_of(kind) : 0);
+        struct node_halves sum;
+        vector4_clear(sum.low, walk.count ? nodes_of(kind) : 0);
+        vector4_clear(sum.high, walk.count ? nodes_of(kind) : 0);
         for (int32_t begin = 0; begin < walk.count; begin += kind.lanes) {
             weigh(t, kind, &walk, begin, &chunk);
             find_weights(kind, &chunk, weight);
@@ -204,20 +205,16 @@ BOLIDE_INLINE void bin_again(const struct transfer *t, struct kind kind, int32_t
                        kind.dimension, got + NODE_ACCELERATION);
             for (int lane = 0; lane < chunk.count; lane++) {
                 const double m = t->mass[chunk.index[lane]];
-                const vector8 record = {0.0,
-                                        m * got[1][lane],
-                                        m * got[2][lane],
-                                        m * got[3][lane],
-                                        m * got[4][lane],
-                                        m * got[5][lane],
-                                        m * got[6][lane],
-                                        0.0};
-                for (int n = 0; n < nodes_of(kind); n++)
-                    sum[n] += weight[n][lane] * record;
+                const vector4 low = {0.0, m * got[1][lane], m * got[2][lane], m * got[3][lane]},
+                              high = {m * got[4][lane], m * got[5][lane], m * got[6][lane], 0.0};
+                for (int n = 0; n < nodes_of(kind); n++) {
+                    sum.low[n] += weight[n][lane] * low;
+                    sum.high[n] += weight[n][lane] * high;
+                }
             }
         }
         if (walk.count)
-            add_sums8(kind, walk.base, sum, to);
+            add_halves(kind, walk.base, &sum, to);
     }
 }
 

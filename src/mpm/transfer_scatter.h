@@ -60,54 +60,65 @@ BOLIDE_INLINE void node_record_of(const struct transfer *t, struct kind kind, in
     }
 }
 
-/* Adds a particle's record to the sums of a row of nodes along the last axis, which have all
- * factors but that axis' in common. LEVEL is multiplied by the shape function along it, TILT by its
- * slope. */
-BOLIDE_INLINE void add_row(const struct chunk *chunk, struct kind kind, int lane,
-                           const vector8 *level, const vector8 *tilt, vector8 *sum)
-{
-    const int last = kind.dimension - 1;
-    for (int c = 0; c < kind.window; c++)
-        sum[c] += chunk->value[last][c][lane] * *level + chunk->slope[last][c][lane] * *tilt;
-}
+/* Numbers of nodes in two halves, the second from NODE_FORCE on: vectors as wide as any processor
+ * has them at once. */
+struct node_halves {
+    vector4 low[NODES_MAX], high[NODES_MAX];
+};
 
+/* Adds a particle's record to the sums of its nodes, a row along the last axis at a time, which has
+ * all factors but that axis' in common: LEVEL is multiplied by the shape function along it, TILT by
+ * its slope. The first half, mass and momentum, has no slopes. */
 BOLIDE_INLINE void add_node_record(const struct transfer *t, struct kind kind,
                                    const struct chunk *chunk, int lane,
-                                   const struct node_record *record, vector8 *sum)
+                                   const struct node_record *record, struct node_halves *sum)
 {
-    vector8 plain, by_slope[3], around;
-    memcpy(&plain, record->plain, sizeof plain);
-    memcpy(&around, record->around, sizeof around);
-    memcpy(by_slope, record->by_slope, (size_t)kind.dimension * sizeof plain);
-    if (kind.dimension == 1) {
-        add_row(chunk, kind, lane, &plain, &by_slope[0], sum);
-        return;
-    }
-    for (int a = 0; a < kind.window; a++)
-        for (int b = 0; b < (kind.dimension > 2 ? kind.window : 1); b++) {
-            double value = chunk->value[0][a][lane], along_a = chunk->slope[0][a][lane];
-            double along_b = 0.0;
+    const int last = kind.dimension - 1, rows = kind.dimension > 2 ? kind.window : 1;
+    const vector4 low = vector4_load(record->plain),
+                  plain = vector4_load(record->plain + NODE_FORCE),
+                  around = vector4_load(record->around + NODE_FORCE);
+    vector4 by_slope[3];
+    for (int axis = 0; axis < kind.dimension; axis++)
+        by_slope[axis] = vector4_load(record->by_slope[axis] + NODE_FORCE);
+    for (int a = 0; a < (kind.dimension > 1 ? kind.window : 1); a++)
+        for (int b = 0; b < rows; b++) {
+            double value = 1.0, along_a = 0.0, along_b = 0.0;
+            if (kind.dimension > 1) {
+                value = chunk->value[0][a][lane];
+                along_a = chunk->slope[0][a][lane];
+            }
             if (kind.dimension > 2) {
                 along_b = value * chunk->slope[1][b][lane];
                 along_a *= chunk->value[1][b][lane];
                 value *= chunk->value[1][b][lane];
             }
-            vector8 level = value * plain + along_a * by_slope[0];
+            vector4 level = value * plain;
+            if (kind.dimension > 1)
+                level += along_a * by_slope[0];
             if (kind.dimension > 2)
                 level += along_b * by_slope[1];
-            else if (t->axisymmetric)
+            else if (kind.dimension > 1 && t->axisymmetric)
                 level += chunk->around[a][lane] * around;
-            const vector8 tilt = value * by_slope[kind.dimension - 1];
-            add_row(chunk, kind, lane, &level, &tilt,
-                    sum + (kind.dimension > 2 ? a * kind.window + b : a) * kind.window);
+            const vector4 tilt = value * by_slope[last], flat = value * low;
+            const int row = (a * rows + b) * kind.window;
+            for (int c = 0; c < kind.window; c++) {
+                const double along = chunk->value[last][c][lane];
+                sum->low[row + c] += along * flat;
+                sum->high[row + c] += along * level + chunk->slope[last][c][lane] * tilt;
+            }
         }
 }
 
 /* Adds the sums of a cell to its nodes in the patch. */
-BOLIDE_INLINE void add_sums8(struct kind kind, size_t base, const vector8 *sum, double *patch)
+BOLIDE_INLINE void add_halves(struct kind kind, size_t base, const struct node_halves *sum,
+                              double *patch)
 {
-    FOR_NODES (kind, a, b, c)
-        vector8_add_to(patch + node_of(kind, base, a, b, c) * NODE_STRIDE, *sum++);
+    const vector4 *low = sum->low, *high = sum->high;
+    FOR_NODES (kind, a, b, c) {
+        double *node = patch + node_of(kind, base, a, b, c) * NODE_STRIDE;
+        vector4_add_to(node, *low++);
+        vector4_add_to(node + NODE_FORCE, *high++);
+    }
 }
 
 BOLIDE_INLINE void add_sums4(struct kind kind, size_t base, const vector4 *sum, double *patch)
@@ -166,7 +177,7 @@ BOLIDE_INLINE void add_node_sums(struct kind kind, size_t base, const struct nod
 /* The same with forces, to sums of nodes. */
 BOLIDE_INLINE void scatter_forces(const struct transfer *t, struct kind kind,
                                   const struct chunk *chunk, struct node_record *record,
-                                  vector8 *sum)
+                                  struct node_halves *sum)
 {
     for (int lane = 0; lane < chunk->count; lane++)
         node_record_of(t, kind, chunk->index[lane], &record[lane]);
@@ -215,14 +226,15 @@ BOLIDE_INLINE void cell_scatter_forces(const struct transfer *t, struct kind kin
                                        double *patch)
 {
     struct chunk chunk;
-    vector8 sum[NODES_MAX];
-    vector8_clear(sum, nodes_of(kind));
+    struct node_halves sum;
+    vector4_clear(sum.low, nodes_of(kind));
+    vector4_clear(sum.high, nodes_of(kind));
     for (int32_t begin = 0; begin < walk->count; begin += kind.lanes) {
         weigh(t, kind, walk, begin, &chunk);
-        scatter_forces(t, kind, &chunk, record, sum);
+        scatter_forces(t, kind, &chunk, record, &sum);
         scatter_affine(t, kind, &chunk, walk->base, patch);
     }
-    add_sums8(kind, walk->base, sum, patch);
+    add_halves(kind, walk->base, &sum, patch);
 }
 
 BOLIDE_INLINE void bin_scatter(const struct transfer *t, struct kind kind, int32_t bin)
