@@ -13,8 +13,6 @@
  * take part: the pressures of solids may differ by their strength, and an ideal gas is so soft that
  * it gives way anyway. Walls act as on all nodal sums. What particles are given is found with the
  * sums of the nodes, and taken when the forces of their old stresses have done their work. */
-#include <string.h>
-
 #include "base/memory.h"
 #include "material/material.h"
 #include "mpm/mpm_internal.h"
@@ -89,7 +87,8 @@ struct error *mpm_balance_pressures(struct mpm *mpm, struct simulation *simulati
                                                       count, 0, sizeof *mpm->given)
                                            ? NULL
                                            : out_of_memory_for("%d particles", count)));
-    memset(mpm->given, 0, (size_t)count * sizeof *mpm->given);
+    for (int32_t i = 0; i < count; i++)
+        mpm->given[i][0] = mpm->given[i][1] = 0.0;
     const double most = largest_pressure(mpm, simulation);
     for (int pass = 0; pass < 2; pass++) {
         for (int g = 0; g < mpm->layers; g++) {
