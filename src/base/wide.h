@@ -102,21 +102,6 @@ BOLIDE_INLINE void vector4_add_to(double *to, vector4 more)
     memcpy(to, &sum, sizeof sum);
 }
 
-BOLIDE_INLINE void vector8_add_to(double *to, vector8 more)
-{
-    vector8 sum;
-    memcpy(&sum, to, sizeof sum);
-    sum += more;
-    memcpy(to, &sum, sizeof sum);
-}
-
-BOLIDE_INLINE void vector8_clear(vector8 *sum, int count)
-{
-    const vector8 zero = {0.0};
-    for (int k = 0; k < count; k++)
-        sum[k] = zero;
-}
-
 BOLIDE_INLINE void vector4_clear(vector4 *sum, int count)
 {
     const vector4 zero = {0.0};

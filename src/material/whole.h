@@ -1,5 +1,5 @@
-/* What the parts of a material are asked together when it is loaded: constants of one that follow
- * from another, and whether they go together. */
+/* Of several parts of a material at once, when it is loaded: constants of one that follow from
+ * another, and whether the parts go together. */
 #ifndef BOLIDE_WHOLE_H
 #define BOLIDE_WHOLE_H
 

@@ -189,7 +189,7 @@ void refuse_broken_contacts(const struct problem *problem, struct findings *find
 void refuse_standing_spall(const struct problem *problem, struct findings *findings)
 {
     for (int m = 0; m < problem->materials; m++)
-        if (failure_traits(&problem->material[m].failure).waits)
+        if (failure_waits(&problem->material[m].failure))
             finding_add(findings, FINDING_WRONG, "materials", problem->input->materials.names[m],
                         "`onset: standing` of spall is for the solver sph and its default method");
 }

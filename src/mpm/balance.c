@@ -2,8 +2,8 @@
  *
  * Nodes have one velocity, so particles of two materials at one node get strains between those of
  * both: one is compressed too far and the other too little. The sum of their volumes is right.
- * Their pressures, which in fluids are one, can differ by half for good. So particles exchange
- * volume at the nodes that they share, and the one of higher pressure does work on the others:
+ * Their pressures, which should be equal in fluids, can differ by half for good. So particles
+ * exchange volume at the nodes that they share, and those of higher pressure do work on the others:
  *
  *   P = sum N s p/sum N s;   V' = V + s sum N (p - P);   e' = e - s/m sum N P (p - P)
  *

@@ -47,10 +47,12 @@ struct particles {
     double *history[POINT_HISTORY]; /* by slot, NULL where no material of the case needs it */
 };
 
-/* HISTORY of particle I, zero where the store has none; and back. */
+/* HISTORY of particle I, zero where the store has none; and back. Hot: as loops, which compilers
+ * leave them where there are many slots, they take twice the instructions. */
 BOLIDE_INLINE void particle_load_history(const struct particles *particles, int32_t i,
                                          double history[POINT_HISTORY])
 {
+#pragma GCC unroll 32
     for (int slot = 0; slot < POINT_HISTORY; slot++)
         history[slot] = particles->history[slot] ? particles->history[slot][i] : 0.0;
 }
@@ -58,6 +60,7 @@ BOLIDE_INLINE void particle_load_history(const struct particles *particles, int3
 BOLIDE_INLINE void particle_keep_history(const struct particles *particles, int32_t i,
                                          const double history[POINT_HISTORY])
 {
+#pragma GCC unroll 32
     for (int slot = 0; slot < POINT_HISTORY; slot++)
         if (particles->history[slot])
             particles->history[slot][i] = history[slot];

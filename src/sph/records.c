@@ -7,21 +7,27 @@
 #include "sph/lanes.h"
 #include "sph/scheme.h"
 
+void sph_reflect_place(const struct simulation *simulation, image_code image, double *record)
+{
+    const size_t bytes = (size_t)simulation->problem->dimension * sizeof *record;
+    double x[3] = {0.0, 0.0, 0.0};
+    memcpy(x, record, bytes);
+    const struct vec3 place =
+        image_position(&simulation->problem->images, image, vec3_make(x[0], x[1], x[2]));
+    const double at[3] = {place.x, place.y, place.z};
+    memcpy(record, at, bytes);
+}
+
 void sph_reflect_motion(const struct simulation *simulation, image_code image, double *record)
 {
-    int dimension = simulation->problem->dimension;
-    struct vec3 sign = image_sign(&simulation->problem->images, image);
-    double x[3] = {0.0, 0.0, 0.0}, signs[3] = {sign.x, sign.y, sign.z};
-    memcpy(x, record, (size_t)dimension * sizeof *x);
-    struct vec3 place =
-        image_position(&simulation->problem->images, image, vec3_make(x[0], x[1], x[2]));
-    double at[3] = {place.x, place.y, place.z};
+    const int dimension = simulation->problem->dimension;
+    const struct vec3 sign = image_sign(&simulation->problem->images, image);
+    const double signs[3] = {sign.x, sign.y, sign.z};
     double *velocity = record + record_velocity(dimension);
     assert(dimension <= 3);
-    for (int axis = 0; axis < dimension; axis++) {
-        record[axis] = at[axis];
+    sph_reflect_place(simulation, image, record);
+    for (int axis = 0; axis < dimension; axis++)
         velocity[axis] *= signs[axis];
-    }
 }
 
 /* Copies position and diameter of the records of ghosts BEGIN .. END - 1. */

@@ -276,8 +276,9 @@ double *sph_records_start(struct sph *sph, const struct simulation *simulation,
 void sph_records_finish(struct sph *sph, struct simulation *simulation,
                         const struct sph_records *records);
 
-/* Reflects position and velocity of a record, which are in the same place in those of all schemes.
- */
+/* Reflects the position of a record, which begins with it; and its velocity as well, which is in
+ * the same place in those of all schemes. */
+void sph_reflect_place(const struct simulation *simulation, image_code image, double *record);
 void sph_reflect_motion(const struct simulation *simulation, image_code image, double *record);
 
 /* Reflects a symmetric tensor in the order of a record: components with one normal index change

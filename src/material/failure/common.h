@@ -55,7 +55,6 @@ struct failure_traits {
     bool limits_tension; /* by a stress that it is given */
     bool batched;        /* of many points at once: it does not ask for sound and yield */
     bool at_contacts;    /* pairs of particles break, points do not */
-    bool waits;          /* spall_overload() says when it fails */
     bool of_fluids;      /* for material without strength, and for no other */
     /* Why its parameters do not go together, and the parameter to name; NULL when they do. */
     const char *wrong, *wrong_key;

@@ -76,8 +76,8 @@ BOLIDE_INLINE double spall_overload(const struct failure_spall *spall, const str
 BOLIDE_INLINE struct failure_traits failure_spall_traits(const struct failure_spall *spall)
 {
     struct failure_traits traits = failure_default_traits();
+    (void)spall;
     traits.batched = true;
-    traits.waits = spall->onset == SPALL_STANDING;
     traits.limits_tension = true;
     return traits;
 }

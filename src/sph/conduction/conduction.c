@@ -101,14 +101,8 @@ static void pack_owned(const struct simulation *simulation, const struct sph_fie
 static void reflect(const struct sph *sph, const struct simulation *simulation, image_code image,
                     double *record)
 {
-    const int dimension = simulation->problem->dimension;
-    double x[3] = {0.0, 0.0, 0.0};
     (void)sph;
-    memcpy(x, record, (size_t)dimension * sizeof *x);
-    struct vec3 place =
-        image_position(&simulation->problem->images, image, vec3_make(x[0], x[1], x[2]));
-    double at[3] = {place.x, place.y, place.z};
-    memcpy(record, at, (size_t)dimension * sizeof *at);
+    sph_reflect_place(simulation, image, record);
     if (sph_axisymmetric(simulation) && image % 3 == 1) /* the other side of the axis */
         record[heat_record_depth(2)] *= -1.0;
 }
