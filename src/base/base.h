@@ -18,6 +18,15 @@
 #define BOLIDE_INLINE static inline __attribute__((always_inline, unused))
 #endif
 
+/* Before a loop of at most 32 passes: its passes stand one after the other. */
+#if defined(__CUDACC__)
+#define BOLIDE_UNROLL _Pragma("unroll")
+#elif defined(__clang__)
+#define BOLIDE_UNROLL _Pragma("clang loop unroll(full)")
+#else
+#define BOLIDE_UNROLL _Pragma("GCC unroll 32")
+#endif
+
 #if defined(__GNUC__)
 #define BOLIDE_PRINTF(text, first) __attribute__((format(printf, text, first)))
 #else

@@ -52,7 +52,7 @@ struct particles {
 BOLIDE_INLINE void particle_load_history(const struct particles *particles, int32_t i,
                                          double history[POINT_HISTORY])
 {
-#pragma GCC unroll 32
+    BOLIDE_UNROLL
     for (int slot = 0; slot < POINT_HISTORY; slot++)
         history[slot] = particles->history[slot] ? particles->history[slot][i] : 0.0;
 }
@@ -60,7 +60,7 @@ BOLIDE_INLINE void particle_load_history(const struct particles *particles, int3
 BOLIDE_INLINE void particle_keep_history(const struct particles *particles, int32_t i,
                                          const double history[POINT_HISTORY])
 {
-#pragma GCC unroll 32
+    BOLIDE_UNROLL
     for (int slot = 0; slot < POINT_HISTORY; slot++)
         if (particles->history[slot])
             particles->history[slot][i] = history[slot];
