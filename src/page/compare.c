@@ -9,15 +9,11 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/units.h"
+#include "page/curve.h"
 #include "page/internal.h"
 
 enum { RUNS_MAX = 8, DATA_MAX = 4 };
-
-/* Numbers over time, SI. */
-struct curve {
-    int64_t count;
-    double *time, *value;
-};
+static const char EXACT[] = "exact [Pa]"; /* of a gauge: a column beside its pressure */
 
 struct comparison {
     const struct compare_request *request;
@@ -109,24 +105,6 @@ static struct error *find_column(const struct csv *csv, const char *path, const 
     return error_context(error, "%s", path);
 }
 
-static struct error *curve_make(const struct csv *csv, int time, int value, double time_scale,
-                                double scale, double shift, struct curve *curve)
-{
-    *curve = (struct curve){.time = memory_allocate((size_t)(2 * csv->rows + 1) * sizeof(double))};
-    if (!curve->time)
-        return out_of_memory_for("a comparison");
-    curve->value = curve->time + csv->rows;
-    for (int64_t i = 0; i < csv->rows; i++) {
-        const double t = csv_number(csv, i, time) * time_scale + shift;
-        const double v = csv_number(csv, i, value) * scale;
-        if (!isfinite(t) || !isfinite(v))
-            continue;
-        curve->time[curve->count] = t;
-        curve->value[curve->count++] = v;
-    }
-    return NULL;
-}
-
 static struct error *read_data(const struct compare_data *data, struct curve *curve)
 {
     struct csv csv;
@@ -145,77 +123,17 @@ static struct error *read_data(const struct compare_data *data, struct curve *cu
     return error;
 }
 
-/* The value of CURVE at TIME, between its points; NAN outside. */
-static double value_at(const struct curve *curve, double time)
-{
-    int64_t low = 0, high = curve->count - 1;
-    if (curve->count < 2 || !(time >= curve->time[0]) || !(time <= curve->time[high]))
-        return NAN;
-    while (high - low > 1) {
-        const int64_t middle = (low + high) / 2;
-        if (curve->time[middle] <= time)
-            low = middle;
-        else
-            high = middle;
-    }
-    const double length = curve->time[high] - curve->time[low];
-    const double part = length > 0.0 ? (time - curve->time[low]) / length : 0.0;
-    return curve->value[low] + part * (curve->value[high] - curve->value[low]);
-}
-
-/* Root mean square of RUN less DATA, whose times are SHIFT later. */
-static double rms_of(const struct curve *run, const struct curve *data, double shift)
-{
-    double sum = 0.0;
-    int64_t count = 0;
-    for (int64_t i = 0; i < data->count; i++) {
-        const double off = value_at(run, data->time[i] + shift) - data->value[i];
-        if (isfinite(off)) {
-            sum += off * off;
-            count++;
-        }
-    }
-    return 2 * count >= data->count && count > 0 ? sqrt(sum / (double)count) : (double)NAN;
-}
-
-static double largest_of(const struct curve *curve)
-{
-    double largest = -INFINITY;
-    for (int64_t i = 0; i < curve->count; i++)
-        largest = maximum(largest, curve->value[i]);
-    return largest;
-}
-
-/* The shift, up to a quarter of the data's time, of the smallest difference. */
-static double best_shift(const struct curve *run, const struct curve *data)
-{
-    enum { STEPS = 100, ROUNDS = 4 };
-    double reach = 0.25 * (data->time[data->count - 1] - data->time[0]), best = 0.0;
-    double least = rms_of(run, data, 0.0);
-    for (int round = 0; round < ROUNDS; round++, reach *= 0.05) {
-        const double middle = best;
-        for (int i = -STEPS; i <= STEPS; i++) {
-            const double shift = middle + reach * i / STEPS, rms = rms_of(run, data, shift);
-            if (rms < least || (isnan(least) && isfinite(rms))) {
-                least = rms;
-                best = shift;
-            }
-        }
-    }
-    return best;
-}
-
 static void judge(const struct comparison *c, const char *folder, const struct compare_data *data,
                   const struct curve *run, const struct curve *measured, const char *unit)
 {
     char rms[QUANTITY_TEXT], most[QUANTITY_TEXT], shift[QUANTITY_TEXT], fit[QUANTITY_TEXT];
-    const double by = best_shift(run, measured), difference = rms_of(run, measured, 0.0);
-    const double peak = largest_of(run) - largest_of(measured);
+    const double by = curve_shift(run, measured), difference = curve_rms(run, measured, 0.0);
+    const double peak = curve_largest(run) - curve_largest(measured);
     char *text = text_format(
         "%s, %s of %s: rms %s, largest value %s, best fit with the data shifted by %s (rms %s)",
         folder, data->field, data->probe, quantity_text(difference, unit, rms),
         quantity_text(peak, unit, most), quantity_text(by, "s", shift),
-        quantity_text(rms_of(run, measured, by), unit, fit));
+        quantity_text(curve_rms(run, measured, by), unit, fit));
     if (text && c->request->line)
         c->request->line(c->request->context, text);
     if (text) {
@@ -242,19 +160,24 @@ static int by_number(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Plots the CURVES of the runs, and of MEASURED where there are any. */
+/* What a plot shows: a line, or the points of a measurement. */
+struct drawn {
+    const struct curve *curve; /* NULL or without points: not drawn */
+    const char *label;
+    bool dashed, dots;
+};
+
 static struct error *put_plot(struct comparison *c, const char *title, const char *unit,
-                              const struct curve *curve, const struct curve *const *measured)
+                              const struct drawn *drawn, int lines)
 {
     int64_t count = 0, kept = 0;
-    const int runs = c->request->runs, lines = runs + c->request->data;
     for (int s = 0; s < lines; s++)
-        count += s < runs ? curve[s].count : measured[s - runs] ? measured[s - runs]->count : 0;
+        count += drawn[s].curve ? drawn[s].curve->count : 0;
     double *numbers = memory_allocate((size_t)((lines + 1) * count + 1) * sizeof *numbers);
     if (!numbers)
         return out_of_memory_for("a comparison");
     for (int s = 0; s < lines; s++) {
-        const struct curve *from = s < runs ? &curve[s] : measured[s - runs];
+        const struct curve *from = drawn[s].curve;
         if (from && from->count)
             memcpy(numbers + kept, from->time, (size_t)from->count * sizeof *numbers);
         kept += from ? from->count : 0;
@@ -267,21 +190,25 @@ static struct error *put_plot(struct comparison *c, const char *title, const cha
     struct page_plot plot = {
         .title = title, .x_name = "time", .x_unit = "s", .unit = unit, .count = kept, .x = numbers};
     for (int s = 0; s < lines; s++) {
-        const struct curve *from = s < runs ? &curve[s] : measured[s - runs];
+        const struct curve *from = drawn[s].curve;
         struct page_series *series = &plot.series[plot.series_count];
         double *value = numbers + (s + 1) * count;
-        if (!from || from->count < 2)
-            continue;
+        series->optional = !from || from->count < 2; /* left out, but the next keep their colours */
         for (int64_t i = 0, k = 0; i < kept; i++) {
+            value[i] = NAN;
+            if (series->optional)
+                continue;
             while (k < from->count && from->time[k] < numbers[i])
                 k++;
             const bool there = k < from->count && from->time[k] == numbers[i];
-            value[i] = s < runs ? value_at(from, numbers[i]) : there ? from->value[k] : (double)NAN;
+            value[i] = !drawn[s].dots ? curve_at(from, numbers[i])
+                       : there        ? from->value[k]
+                                      : (double)NAN;
         }
-        snprintf(series->label, sizeof series->label, "%s",
-                 s < runs ? c->request->folder[s] : c->request->measured[s - runs].path);
+        snprintf(series->label, sizeof series->label, "%s", drawn[s].label);
         series->value = value;
-        series->dots = s >= runs;
+        series->dots = drawn[s].dots;
+        series->dashed = drawn[s].dashed;
         plot.series_count++;
     }
     page_plot(c->page.file, &plot);
@@ -290,54 +217,105 @@ static struct error *put_plot(struct comparison *c, const char *title, const cha
     return NULL;
 }
 
-/* Whether a curve is worth a plot. */
-static bool varies(const struct curve *curve)
+/* The curve of column HEAD of RUN; without points where it has none. */
+static struct error *read_column(const struct csv *run, const char *head, struct curve *curve)
 {
-    for (int64_t i = 1; i < curve->count; i++)
-        if (fabs(curve->value[i] - curve->value[0]) > 1e-9 * fabs(curve->value[0]))
-            return true;
-    return false;
+    const int at = csv_column(run, head);
+    *curve = (struct curve){0};
+    return at > 0 ? curve_make(run, 0, at, 1.0, 1.0, 0.0, curve) : NULL;
+}
+
+/* What a plot of a column is made of: the runs, the measurements, exact solutions that differ. */
+struct column {
+    struct curve run[RUNS_MAX], exact[RUNS_MAX];
+    const struct curve *measured[DATA_MAX];
+    struct drawn drawn[PLOT_SERIES];
+    int lines;
+};
+
+/* Adds the exact solutions that gauges recorded beside their pressure, equal ones once. */
+static struct error *add_exact(const struct comparison *c, struct column *column)
+{
+    int found = 0;
+    for (int r = 0; r < c->request->runs && column->lines < PLOT_SERIES; r++) {
+        struct curve *exact = &column->exact[found];
+        TRY(read_column(&c->run[r], EXACT, exact));
+        bool known = exact->count == 0;
+        for (int k = 0; k < found; k++)
+            known |= curve_equal(exact, &column->exact[k]);
+        if (known) {
+            free(exact->time);
+            *exact = (struct curve){0};
+            continue;
+        }
+        column->drawn[column->lines++] =
+            (struct drawn){.curve = exact, .label = "exact", .dashed = true};
+        found++;
+    }
+    return NULL;
+}
+
+static struct error *fill_column(const struct comparison *c, const char *name, const char *head,
+                                 struct column *column)
+{
+    const struct compare_request *request = c->request;
+    for (int r = 0; r < request->runs; r++) {
+        TRY(read_column(&c->run[r], head, &column->run[r]));
+        column->drawn[column->lines++] =
+            (struct drawn){.curve = &column->run[r], .label = request->folder[r]};
+    }
+    for (int k = 0; k < request->data; k++) {
+        const struct compare_data *data = &request->measured[k];
+        if (!data->probe || !data->field || strcmp(data->probe, name) != 0 ||
+            !same_name(head, data->field))
+            continue;
+        column->measured[k] = &c->data[k];
+        column->drawn[column->lines++] =
+            (struct drawn){.curve = &c->data[k], .label = data->path, .dots = true};
+    }
+    return same_name(head, "pressure") ? add_exact(c, column) : NULL;
+}
+
+static void judge_column(const struct comparison *c, const struct column *column, const char *unit)
+{
+    bool begun = false;
+    for (int k = 0; k < c->request->data; k++)
+        for (int r = 0; r < c->request->runs && column->measured[k]; r++) {
+            if (column->measured[k]->count < 2 || column->run[r].count < 2)
+                continue;
+            fputs(begun ? "" : "<ul class=\"note\">\n", c->page.file);
+            begun = true;
+            judge(c, c->request->folder[r], &c->request->measured[k], &column->run[r],
+                  column->measured[k], unit);
+        }
+    fputs(begun ? "</ul>\n" : "", c->page.file);
 }
 
 /* The column HEAD of the first run that has the probe NAME, in all of them. */
 static struct error *compare_column(struct comparison *c, const char *name, const char *head)
 {
-    struct curve curve[RUNS_MAX] = {{0}};
-    const struct curve *measured[DATA_MAX] = {NULL};
+    struct column column = {.lines = 0};
     const size_t length = strcspn(head, "[");
-    char *column = text_copy_part(head, head[length] && length ? length - 1 : length);
+    char *field = text_copy_part(head, head[length] && length ? length - 1 : length);
     char *unit = head[length] ? text_copy_part(head + length + 1, strcspn(head + length + 1, "]"))
                               : text_copy("");
-    char *title = text_format("%s: %s", name, column ? column : "");
-    struct error *error = column && unit && title ? NULL : out_of_memory_for("a comparison");
-    bool any = false, judged = false;
-    for (int r = 0; r < c->request->runs && !error; r++) {
-        const int at = csv_column(&c->run[r], head);
-        if (at > 0)
-            error = curve_make(&c->run[r], 0, at, 1.0, 1.0, 0.0, &curve[r]);
-        any |= varies(&curve[r]);
-    }
-    for (int k = 0; k < c->request->data && !error; k++) {
-        const struct compare_data *data = &c->request->measured[k];
-        if (data->probe && data->field && !strcmp(data->probe, name) &&
-            same_name(head, data->field))
-            measured[k] = &c->data[k];
-        judged |= measured[k] != NULL;
-    }
-    if (!error && any)
-        error = put_plot(c, title, unit, curve, measured);
-    fputs(judged ? "<ul class=\"note\">\n" : "", c->page.file);
-    for (int k = 0; k < c->request->data && !error; k++)
-        for (int r = 0; r < c->request->runs && measured[k] && measured[k]->count > 1; r++)
-            if (curve[r].count > 1)
-                judge(c, c->request->folder[r], &c->request->measured[k], &curve[r], measured[k],
-                      unit);
-    fputs(judged ? "</ul>\n" : "", c->page.file);
+    char *title = text_format("%s: %s", name, field ? field : "");
+    struct error *error = field && unit && title ? fill_column(c, name, head, &column)
+                                                 : out_of_memory_for("a comparison");
+    bool any = false;
     for (int r = 0; r < c->request->runs; r++)
-        free(curve[r].time);
+        any |= curve_varies(&column.run[r]);
+    if (!error && any)
+        error = put_plot(c, title, unit, column.drawn, column.lines);
+    if (!error)
+        judge_column(c, &column, unit);
+    for (int r = 0; r < c->request->runs; r++) {
+        free(column.run[r].time);
+        free(column.exact[r].time);
+    }
     free(title);
     free(unit);
-    free(column);
+    free(field);
     return error;
 }
 
@@ -357,7 +335,8 @@ static struct error *compare_probe(struct comparison *c, const char *file)
     page_text(c->page.file, name);
     fputs("</h2>\n<div class=\"plots\">\n", c->page.file);
     for (int i = 1; i < c->run[0].columns && !error; i++)
-        error = compare_column(c, name, csv_head(&c->run[0], i));
+        if (strcmp(csv_head(&c->run[0], i), EXACT) != 0) /* it is in the plot of the pressure */
+            error = compare_column(c, name, csv_head(&c->run[0], i));
     fputs("</div></section>\n", c->page.file);
     for (int r = 0; r < c->request->runs; r++)
         csv_free(&c->run[r]);

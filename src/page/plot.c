@@ -174,8 +174,9 @@ static void draw_caption(FILE *file, const struct page_plot *plot, const bool *s
         fputs("<span class=\"legend\">", file);
         for (int s = 0; s < plot->series_count; s++)
             if (shown[s]) {
-                fprintf(file, "<span class=\"k%d%s\">", s % COLOURS,
-                        plot->series[s].dashed ? " dashed" : "");
+                const struct page_series *series = &plot->series[s];
+                fprintf(file, "<span class=\"k%d%s%s\">", s % COLOURS,
+                        series->dashed ? " dashed" : "", series->dots ? " dots" : "");
                 page_text(file, plot->series[s].label);
                 fputs("</span> ", file);
             }

@@ -83,6 +83,8 @@ const char page_style[] =
     ".legend span::before{content:\"\";display:inline-block;width:1.3rem;margin-right:.35rem;\n"
     "vertical-align:middle;border-top:2px solid}\n"
     ".legend .dashed::before{border-top-style:dashed}\n"
+    ".legend .dots.dots::before{width:.3rem;margin-right:.5rem;border-top:.3rem solid var(--ink);"
+    "border-radius:.15rem}\n"
     ".legend .k0::before{border-color:var(--c0)}.legend .k1::before{border-color:var(--c1)}\n"
     ".legend .k2::before{border-color:var(--c2)}.legend .k3::before{border-color:var(--c3)}\n"
     ".legend .k4::before{border-color:var(--c4)}.legend .k5::before{border-color:var(--c5)}\n"

@@ -50,6 +50,26 @@ PYTHON
 [ $? = 2 ] || fail "a wrong key: $(cat wrong.log)"
 "$BOLIDE" compare a --data none.csv >wrong.log 2>&1
 [ $? = 2 ] || fail "a missing file: $(cat wrong.log)"
+# The exact solution that a gauge recorded is a line in the plot of its pressure: one, where runs have the same.
+rm -rf exact coarse twice
+cp -r a exact
+cp -r b coarse
+python3 - <<'PYTHON'
+import csv
+for run in ("exact", "coarse"):
+    path = run + "/probes/gauge.csv"
+    rows = list(csv.reader(open(path)))
+    with open(path, "w") as out:
+        csv.writer(out).writerows([row + ([f"{2e12 * float(row[0]):.9g}"] if i else ["exact [Pa]"]) for i, row in enumerate(rows)])
+PYTHON
+"$BOLIDE" compare exact coarse --output twice >twice.log 2>&1 || fail "with exact solutions: $(cat twice.log)"
+python3 - <<'PYTHON' || fail "the exact solution in twice/compare.html"
+import json, re
+plots = [json.loads(data) for data in re.findall(r'application/json">(.*?)</script>', open("twice/compare.html").read(), re.S)]
+names = [[(s["name"], s["dashed"]) for s in p["series"]] for p in plots]
+assert len(plots) == 3, names
+assert names[[p["unit"] for p in plots].index("GPa")] == [("exact", 0), ("coarse", 0), ("exact", 1)], names
+PYTHON
 if [ ! -x /usr/bin/chromium ]; then
     echo "no browser is installed: the page was not opened"
     exit $status

@@ -1,0 +1,34 @@
+/* Numbers over time, of runs and of measurements, and how far they are apart. Private to pages. */
+#ifndef BOLIDE_PAGE_CURVE_H
+#define BOLIDE_PAGE_CURVE_H
+
+#include "base/csv.h"
+#include "base/error.h"
+
+struct curve {
+    int64_t count;
+    double *time, *value; /* SI; one block of memory: free(time) */
+};
+
+/* The finite rows of two columns of CSV, in units of the scales; times are SHIFT later. */
+struct error *curve_make(const struct csv *csv, int time, int value, double time_scale,
+                         double scale, double shift, struct curve *curve);
+
+/* The value at TIME, between its points; NAN outside. */
+double curve_at(const struct curve *curve, double time);
+
+double curve_largest(const struct curve *curve);
+
+/* Whether a curve is worth a plot. */
+bool curve_varies(const struct curve *curve);
+
+/* Whether the points of A lie on B, as far as B goes. */
+bool curve_equal(const struct curve *a, const struct curve *b);
+
+/* Root mean square of RUN less DATA, whose times are SHIFT later. */
+double curve_rms(const struct curve *run, const struct curve *data, double shift);
+
+/* The shift, up to a quarter of the data's time, of the smallest difference. */
+double curve_shift(const struct curve *run, const struct curve *data);
+
+#endif
