@@ -26,6 +26,8 @@ enum {
     BOX_TOP = 10,
     SOLID_HEIGHT = 600,
     SIZED_HEIGHT = 600, /* of a page whose pixels are given */
+    MARGIN = 24,        /* of title and legend */
+    NOTE_ROOM = 300,    /* of time and what is outside */
     LEGEND_MAX = 24,
     FRAGMENTS_NAMED = 5
 };
@@ -44,6 +46,7 @@ struct legend_words {
 struct sheet {
     double width, height, head, density;                 /* pixels a point */
     double left;                                         /* of the panels on a wider page */
+    double text;                                         /* of title and legend */
     double tallest;                                      /* what is drawn can be */
     double panel_width, box_left, box_width, box_height; /* box_left: in the panel */
     struct projection projection;                        /* of a raster of a panel, in pixels */
@@ -385,15 +388,38 @@ static struct error *draw_panel(const struct canvas *canvas, const struct album 
     return error;
 }
 
-/* How tall the header is, with the legend on a page of WIDTH. */
-static struct error *measure_head(const struct legend_words *words, double width, double *head)
+/* Where title and legend begin: above what is drawn, but not so far to the right that the title, or
+ * a note of usual length, would not fit. The same for all frames. */
+static double find_text(const struct canvas *canvas, const struct album *album,
+                        const struct picture *picture, const struct sheet *sheet)
 {
+    const double least = picture->view.perspective ? MARGIN : LEFT;
+    const double over = picture->view.perspective ? least : sheet->box_left;
+    const double title = canvas_text_width(canvas, TEXT_TITLE, title_of(album));
+    const double most = sheet->width - MARGIN - maximum(title, NOTE_ROOM);
+    return maximum(least, minimum(sheet->left + over, most));
+}
+
+/* Lays out a page with the header and legend that it has: how tall these are depends on how wide
+ * the page is, and what is drawn is as tall as they leave it. */
+static struct error *lay_all(const struct album *album, const struct picture *picture,
+                             const struct legend_words *words, struct sheet *sheet)
+{
+    enum { ROUNDS = 3 };
     struct canvas probe;
     struct error *error = canvas_create(1.0, 1.0, DENSITY, &probe);
-    *head = canvas_header(&probe, 0.0, "", "") + 4.0;
-    if (!error)
-        *head +=
-            legend_height(&probe, &(struct legend){words->entry, words->count, 0.0, 0.0, width});
+    double head = 0.0;
+    for (int round = 0; round < ROUNDS && !error; round++) {
+        lay_out(album, picture, head, sheet);
+        sheet->text = find_text(&probe, album, picture, sheet);
+        const struct legend legend = {words->entry, words->count, 0.0, 0.0,
+                                      sheet->width - sheet->text - MARGIN};
+        const double needed =
+            canvas_header(&probe, 0.0, "", "") + 4.0 + legend_height(&probe, &legend);
+        head = maximum(head, needed);
+    }
+    lay_out(album, picture, head, sheet);
+    sheet->text = error ? LEFT : find_text(&probe, album, picture, sheet);
     canvas_destroy(&probe);
     return error;
 }
@@ -401,30 +427,25 @@ static struct error *measure_head(const struct legend_words *words, double width
 struct error *sheet_draw(const struct album *album, const struct picture *picture,
                          const struct frame *frame, const char *path)
 {
-    enum { MARGIN = 24 };
     struct sheet sheet;
     struct legend_words words;
     struct canvas canvas;
     char note[256];
-    double head = 0.0;
     int64_t outside = 0;
     find_legend(album, picture, frame, &words);
-    lay_out(album, picture, head, &sheet);
-    const double left = picture->view.perspective ? MARGIN : LEFT;
-    TRY(measure_head(&words, sheet.width - left - MARGIN, &head));
-    lay_out(album, picture, head, &sheet);
+    TRY(lay_all(album, picture, &words, &sheet));
     struct error *error = canvas_create(sheet.width, sheet.height, sheet.density, &canvas);
     for (int k = 0; k < picture->panels && !error; k++)
         error = draw_panel(&canvas, album, picture, k, frame, &sheet, &outside);
     if (!error) {
         note_text(picture, frame, outside, note, sizeof note);
-        const double top = canvas_header(&canvas, left, title_of(album), note);
-        legend_draw(&canvas, &(struct legend){words.entry, words.count, left, top,
-                                              sheet.width - left - MARGIN});
+        const double top = canvas_header(&canvas, sheet.text, title_of(album), note);
+        legend_draw(&canvas, &(struct legend){words.entry, words.count, sheet.text, top,
+                                              sheet.width - sheet.text - MARGIN});
         if (frame_members(frame) == 0)
             canvas_text(&canvas, TEXT_NOTE,
-                        (struct text_place){0.5 * sheet.width, head + 0.5 * sheet.box_height, 0.5,
-                                            sheet.width},
+                        (struct text_place){0.5 * sheet.width, sheet.head + 0.5 * sheet.box_height,
+                                            0.5, sheet.width},
                         "no particles");
         error = canvas_publish(&canvas, path, true);
     }
