@@ -174,6 +174,7 @@ void album_free(struct album *album)
         return;
     frame_names_free(&album->bodies);
     frame_names_free(&album->materials);
+    free(album->stretch);
     free(album->picture);
     free(album);
 }
@@ -195,6 +196,7 @@ struct error *album_begin(struct album *album, const struct frame *first, const 
 {
     TRY(frame_names_copy(&first->bodies, &album->bodies));
     TRY(frame_names_copy(&first->materials, &album->materials));
+    TRY(stretch_find(album, first, &album->stretch));
     for (int i = 0; i < album->count; i++)
         TRY(error_context(view_find(album, first, last, &album->picture[i]), "picture \"%s\"",
                           album->picture[i].name));

@@ -28,6 +28,13 @@ struct picture {
     struct panel panel[PANELS_MAX];
 };
 
+/* How large particles of a body are drawn: up to MOST as they are; what has expanded further is no
+ * cell of a whole any more, but debris: the larger it is the smaller it is drawn, down to LEAST,
+ * the size at the start. */
+struct stretch {
+    float least, most; /* m */
+};
+
 struct album {
     const struct simulation_case *input;
     struct place place;
@@ -40,6 +47,7 @@ struct album {
     int fields;
     const char *field[FRAME_FIELDS];
     struct frame_names bodies, materials; /* of the first frame, copied */
+    struct stretch *stretch;              /* of each body */
     bool present[2][256];                 /* bodies, materials that any frame has */
 };
 
@@ -55,6 +63,16 @@ struct error *view_find(const struct album *album, const struct frame *first,
 struct error *spread_find(const float *value, const float *mass, const uint8_t *group,
                           int64_t count, double low, double high, struct range *percentiles,
                           struct range *extremes);
+
+/* stretch.c */
+struct error *stretch_find(const struct album *album, const struct frame *first,
+                           struct stretch **stretch);
+/* The diameter that is drawn of a particle of DIAMETER. */
+BOLIDE_INLINE float stretch_apply(const struct stretch *stretch, float diameter)
+{
+    const float shrunk = stretch->most * (stretch->most / diameter);
+    return diameter <= stretch->most ? diameter : shrunk > stretch->least ? shrunk : stretch->least;
+}
 
 /* What of FRAME the panel shows; free scene->item. *OUTSIDE counts members out of the window. */
 struct error *scene_take(const struct album *album, const struct picture *picture,

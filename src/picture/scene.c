@@ -85,15 +85,20 @@ struct error *scene_take(const struct album *album, const struct picture *pictur
         if (cell && particles && view->perspective)
             continue;
         for (int64_t i = 0; i < group->count; i++) {
+            const int body =
+                group->body[i] < album->bodies.count ? group->body[i] : album->bodies.count;
+            const float diameter = cell ? group->diameter[i]
+                                        : stretch_apply(&album->stretch[body], group->diameter[i]);
             if (!picture_has_body(album, picture->input, group->body[i]) ||
-                !is_in_section(view, group->position[i], group->diameter[i], cell))
+                !is_in_section(view, group->position[i], diameter, cell))
                 continue;
             const bool out = is_outside(view, group->position[i]);
             *outside += out;
             if (out && view->perspective) /* it would hang beside the box */
                 continue;
             struct scene_item *item = &scene->item[scene->count++];
-            *item = (struct scene_item){.diameter = group->diameter[i],
+            *item = (struct scene_item){.diameter = diameter,
+                                        .apart = diameter < group->diameter[i],
                                         .value = value_of(panel, group, field, i),
                                         .body = cell ? UINT16_MAX : group->body[i],
                                         .cell = cell};

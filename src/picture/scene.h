@@ -10,8 +10,8 @@
 /* A particle, or a cell: a square or cube. */
 struct scene_item {
     float place[3], diameter, value;
-    uint16_t body; /* outlines are between different ones */
-    bool cell;
+    uint16_t body;    /* outlines are between different ones */
+    bool cell, apart; /* apart: debris, which closes no gap to the next */
 };
 
 struct scene {

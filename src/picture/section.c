@@ -36,16 +36,17 @@ static const struct scene_item *item_of(const struct drawing *d, int32_t mark)
 }
 
 /* Diameters up to which a particle fills; what has come apart is not stretched. */
-static float fill_of(const struct drawing *d, const struct mark *mark)
+static float fill_of(const struct drawing *d, int32_t m)
 {
-    return mark->diameter > 1.25f * d->usual ? BLEND : d->fill;
+    return item_of(d, m)->apart || d->mark[m].diameter > 1.25f * d->usual ? BLEND : d->fill;
 }
 
 /* How far from its middle an item colours pixels. */
-static float reach_of(const struct drawing *d, const struct mark *mark, bool cell)
+static float reach_of(const struct drawing *d, int32_t m)
 {
-    return cell ? 0.5f * mark->diameter
-                : maximum(fill_of(d, mark) * mark->diameter, 0.5f * d->of.dot);
+    const float diameter = d->mark[m].diameter;
+    return item_of(d, m)->cell ? 0.5f * diameter
+                               : maximum(fill_of(d, m) * diameter, 0.5f * d->of.dot);
 }
 
 static struct span place_mark(void *context, int64_t number, const double at[3])
@@ -60,7 +61,7 @@ static struct span place_mark(void *context, int64_t number, const double at[3])
     mark->x = (float)(projection->x + projection->scale * (at[v->across] - x));
     mark->y = (float)(projection->y - v->up_sign * projection->scale * (at[v->up] - y));
     mark->diameter = (float)(projection->scale * item->diameter);
-    const float reach = reach_of(d, mark, item->cell) + 1.0f + 0.6f * item->cell * mark->diameter;
+    const float reach = reach_of(d, (int32_t)number) + 1.0f + 0.6f * item->cell * mark->diameter;
     const bool seen = mark->x + reach > 0.0f && mark->x - reach < (float)d->of.width;
     return seen ? (struct span){mark->y - reach, mark->y + reach} : (struct span){1.0f, 0.0f};
 }
@@ -70,9 +71,9 @@ static void find_covered(struct drawing *d)
     struct span across = {INFINITY, -INFINITY}, down = {INFINITY, -INFINITY};
     for (int band = 0; band < d->bands.count; band++)
         for (int64_t k = d->bands.begin[band]; k < d->bands.begin[band + 1]; k++) {
-            const struct mark *mark = &d->mark[d->bands.item[k]];
-            const float reach =
-                reach_of(d, mark, item_of(d, d->bands.item[k])->cell) + 0.6f * mark->diameter;
+            const int32_t m = d->bands.item[k];
+            const struct mark *mark = &d->mark[m];
+            const float reach = reach_of(d, m) + 0.6f * mark->diameter;
             across.top = minimum(across.top, mark->x - reach);
             across.bottom = maximum(across.bottom, mark->x + reach);
             down.top = minimum(down.top, mark->y - reach);
@@ -91,7 +92,7 @@ static void find_nearest(struct drawing *d, int band)
         const int32_t m = d->bands.item[k];
         const struct mark *mark = &d->mark[m];
         const bool cell = item_of(d, m)->cell, square_shaped = cell || mark->diameter < FEW;
-        const float reach = reach_of(d, mark, cell), per_square = 1.0f / (reach * reach);
+        const float reach = reach_of(d, m), per_square = 1.0f / (reach * reach);
         const struct pixel_box box =
             row_bands_box(mark->x, mark->y, reach, band, d->of.width, d->of.height);
         for (int y = box.top; y <= box.bottom; y++)
@@ -211,7 +212,7 @@ static void find_filled(struct drawing *d, int band)
             const int32_t m = d->nearest[p];
             if (m < 0)
                 continue;
-            const float diameter = d->mark[m].diameter, fill = fill_of(d, &d->mark[m]);
+            const float diameter = d->mark[m].diameter, fill = fill_of(d, m);
             d->filled[p] = d->depth[p] >= CELL_DEPTH || fill * diameter < 0.5f * d->of.dot ||
                            is_at_surface(&d->mark[m], x, y) ||
                            (float)d->empty[p] > square((fill - EDGE) * diameter);
@@ -266,18 +267,36 @@ static int body_at(const struct drawing *d, int64_t p)
     return d->filled[p] ? item_of(d, d->nearest[p])->body : -1;
 }
 
-/* Whether (x, y) is at the edge of a body. Particles that are no more than dots have none. */
+/* Whether BODY goes on from (x, y) by STEP for as long as three of the smallest dots. */
+static bool goes_on(const struct drawing *d, int x, int y, const int step[2], int body)
+{
+    const int most = (int)(3.0f * d->of.dot);
+    for (int k = 1; k <= most; k++) {
+        const int column = x + k * step[0], row = y + k * step[1];
+        if (column < 0 || row < 0 || column >= d->of.width || row >= d->of.height)
+            return true;
+        if (body_at(d, (int64_t)row * d->of.width + column) != body)
+            return false;
+    }
+    return true;
+}
+
+/* Whether (x, y) is at the edge of a body. What is no wider than a few dots has none: it would be
+ * all edge. Of two bodies that touch one has the line. */
 static bool is_outline(const struct drawing *d, int x, int y)
 {
     static const int step[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-    const int64_t p = (int64_t)y * d->of.width + x;
-    const struct scene_item *item = item_of(d, d->nearest[p]);
-    if (!d->of.view->outlines || d->mark[d->nearest[p]].diameter < 1.5f * d->of.dot || item->cell)
+    const struct scene_item *item = item_of(d, d->nearest[(int64_t)y * d->of.width + x]);
+    if (!d->of.view->outlines || item->cell)
         return false;
     for (int k = 0; k < 4; k++) {
         const int column = x + step[k][0], row = y + step[k][1];
-        if (column >= 0 && row >= 0 && column < d->of.width && row < d->of.height &&
-            body_at(d, (int64_t)row * d->of.width + column) != item->body)
+        const int inwards[2] = {-step[k][0], -step[k][1]};
+        if (column < 0 || row < 0 || column >= d->of.width || row >= d->of.height)
+            continue;
+        const int other = body_at(d, (int64_t)row * d->of.width + column);
+        if (other != item->body && goes_on(d, x, y, inwards, item->body) &&
+            (other < item->body || !goes_on(d, column, row, step[k], other)))
             return true;
     }
     return false;

@@ -67,22 +67,6 @@ static struct vector place_of(const struct drawing *d, int x, int y, float depth
     return plus(ray_start(d, column, row), times(ray_direction(d, column, row), depth));
 }
 
-bool view_project(const struct view *view, const struct projection *projection,
-                  const double place[3], double *x, double *y)
-{
-    double depth = 0.0, across = 0.0, up = 0.0;
-    for (int axis = 0; axis < 3; axis++) {
-        const double from_eye = place[axis] - view->eye[axis];
-        depth -= from_eye * view->direction[axis];
-        across += from_eye * view->right[axis];
-        up += from_eye * view->top[axis];
-    }
-    const double scale = view->parallel ? projection->scale : projection->scale / depth;
-    *x = projection->x + scale * across;
-    *y = projection->y - scale * up;
-    return depth > 0.0;
-}
-
 static struct span place_mark(void *context, int64_t number, const double at[3])
 {
     const struct drawing *d = context;
@@ -243,6 +227,13 @@ static void blend(struct drawing *d, int band)
                                      : item_of(d, d->sample[p].item)->value;
 }
 
+/* NULL outside the raster. */
+static const struct sample *sample_at(const struct drawing *d, int x, int y)
+{
+    const bool inside = x >= 0 && y >= 0 && x < d->of.width && y < d->of.height;
+    return inside ? &d->sample[(int64_t)y * d->of.width + x] : NULL;
+}
+
 static bool is_sphere(const struct sample *sample) { return sample->item >= 0 && sample->cut < 0; }
 
 /* The depth of row or column neighbours, averaged where they belong to the same surface: SURFACE
@@ -338,10 +329,8 @@ static float occlusion_at(const struct drawing *d, int x, int y, struct vector n
     for (int j = 0; j < OCCLUSION_SAMPLES; j++) {
         const int column = x + (int)(d->around[j][0] * pixels);
         const int row = y + (int)(d->around[j][1] * pixels);
-        if (column < 0 || row < 0 || column >= d->of.width || row >= d->of.height)
-            continue;
-        const struct sample *other = &d->sample[(int64_t)row * d->of.width + column];
-        if (other->item < 0)
+        const struct sample *other = sample_at(d, column, row);
+        if (!other || other->item < 0)
             continue;
         const struct vector off = minus(place_of(d, column, row, other->smooth), place);
         const float length = sqrtf(dot(off, off)) + 1e-12f * d->size;
@@ -352,24 +341,45 @@ static float occlusion_at(const struct drawing *d, int x, int y, struct vector n
     return sum / OCCLUSION_SAMPLES;
 }
 
-/* Darkness of an outline at (x, y): where the depth jumps, and less where the body changes. */
+/* Whether the surface at (x, y) goes on by STEP for as long as three of the smallest dots. */
+static bool goes_on(const struct drawing *d, int x, int y, const int step[2])
+{
+    const int most = (int)(3.0f * d->of.dot);
+    const struct sample *last = &d->sample[(int64_t)y * d->of.width + x];
+    const uint16_t body = item_of(d, last->item)->body;
+    const float jump = 5.0f * drawn_metres(d, &d->mark[last->item]);
+    for (int k = 1; k <= most; k++) {
+        const struct sample *next = sample_at(d, x + k * step[0], y + k * step[1]);
+        if (!next)
+            return true;
+        if (next->item < 0 || item_of(d, next->item)->body != body ||
+            fabsf(next->smooth - last->smooth) > jump)
+            return false;
+        last = next;
+    }
+    return true;
+}
+
+/* Darkness of an outline at (x, y): where the depth jumps, and less where the body changes. What is
+ * no wider than a few dots has none. */
 static float outline_at(const struct drawing *d, int x, int y)
 {
     static const int step[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
     const struct sample *sample = &d->sample[(int64_t)y * d->of.width + x];
-    const struct mark *mark = &d->mark[sample->item];
+    const float jump = 5.0f * drawn_metres(d, &d->mark[sample->item]);
     float dark = 0.0f;
-    if (!d->of.view->outlines || mark->radius < 1.5f * d->of.dot)
+    if (!d->of.view->outlines)
         return 0.0f;
     for (int k = 0; k < 4; k++) {
-        const int column = x + step[k][0], row = y + step[k][1];
-        if (column < 0 || row < 0 || column >= d->of.width || row >= d->of.height)
+        const int inwards[2] = {-step[k][0], -step[k][1]};
+        const struct sample *other = sample_at(d, x + step[k][0], y + step[k][1]);
+        if (!other)
             continue;
-        const struct sample *other = &d->sample[(int64_t)row * d->of.width + column];
-        if (other->item < 0 || other->smooth - sample->smooth > 5.0f * mark->metres)
-            return 1.0f;
-        if (item_of(d, other->item)->body != item_of(d, sample->item)->body)
-            dark = 0.7f;
+        const bool end = other->item < 0 || other->smooth - sample->smooth > jump;
+        if (!end && item_of(d, other->item)->body == item_of(d, sample->item)->body)
+            continue;
+        if (goes_on(d, x, y, inwards))
+            dark = end ? 1.0f : maximum(dark, 0.7f);
     }
     return dark;
 }
@@ -386,10 +396,7 @@ static bool is_lone_dot(const struct drawing *d, int x, int y)
     if (mark->radius > 0.5f * d->of.dot || sample->cut >= 0)
         return false;
     for (int k = 0; k < 4; k++) {
-        const int column = x + off * step[k][0], row = y + off * step[k][1];
-        const bool inside = column >= 0 && row >= 0 && column < d->of.width && row < d->of.height;
-        const struct sample *other =
-            inside ? &d->sample[(int64_t)row * d->of.width + column] : NULL;
+        const struct sample *other = sample_at(d, x + off * step[k][0], y + off * step[k][1]);
         alone += !other || other->item < 0 ||
                  fabsf(other->depth - sample->depth) > 6.0f * drawn_metres(d, mark);
     }

@@ -42,6 +42,22 @@ void view_reflect(const struct view *view, const double sign[3], const float pla
         at[axis] = sign[axis] > 0.0 ? place[axis] : 2.0 * view->mirror_at[axis] - place[axis];
 }
 
+bool view_project(const struct view *view, const struct projection *projection,
+                  const double place[3], double *x, double *y)
+{
+    double depth = 0.0, across = 0.0, up = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        const double from_eye = place[axis] - view->eye[axis];
+        depth -= from_eye * view->direction[axis];
+        across += from_eye * view->right[axis];
+        up += from_eye * view->top[axis];
+    }
+    const double scale = view->parallel ? projection->scale : projection->scale / depth;
+    *x = projection->x + scale * across;
+    *y = projection->y - scale * up;
+    return depth > 0.0;
+}
+
 static void include_member(struct bodies *bodies, const struct frame_group *group, int64_t i)
 {
     const double half = 0.5 * group->diameter[i];

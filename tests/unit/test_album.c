@@ -16,6 +16,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "material/material.h"
 #include "picture/album_internal.h"
 
 static const char path[] = "album.png";
@@ -383,6 +384,160 @@ static void in_one_dimension_all_members_are_dots(void **state)
     frame_free(&frame);
 }
 
+/* What scene_take draws of the member 0 of LAST: its diameter over that at the start. */
+static double drawn_times(const struct album *album, const struct frame *last, bool *apart)
+{
+    struct scene scene;
+    int64_t outside;
+    assert_null(
+        scene_take(album, &album->picture[0], &album->picture[0].panel[0], last, &scene, &outside));
+    const double times = scene.item[0].diameter / 1e-3;
+    *apart = scene.item[0].apart;
+    free(scene.item);
+    return times;
+}
+
+/* A case whose bodies, as those of lattice(), are of MATERIAL. */
+static void give_material(struct simulation_case *input, struct material *material,
+                          struct material_input *materials, struct body_input *bodies)
+{
+    static char *names[] = {"metal"};
+    *materials = (struct material_input){.material = material};
+    input->materials = (struct named_map){.count = 1, .names = names, .items = materials};
+    input->bodies = (struct named_map){.count = 2, .names = body_names, .items = bodies};
+}
+
+/* Metal is debris at 4 times its volume, gas at 25 times. */
+static void debris_is_drawn_as_dots_and_gas_as_a_whole(void **state)
+{
+    (void)state;
+    char *names[] = {"body"};
+    struct material metal = {.eos = {.kind = EOS_tillotson}};
+    for (int dimension = 2; dimension <= 3; dimension++)
+        for (int condensed = 0; condensed < 2; condensed++) {
+            struct picture_input pictures[1];
+            struct material_input materials;
+            struct body_input bodies[2] = {{0}};
+            struct simulation_case input = case_of(dimension, names, 1, pictures);
+            if (condensed)
+                give_material(&input, &metal, &materials, bodies);
+            struct frame first = lattice(10, 10, dimension == 3 ? 10 : 1);
+            struct frame last = lattice(10, 10, dimension == 3 ? 10 : 1);
+            struct album *album = album_of(&input, 1, &first, &last);
+            const double most = condensed ? 4.0 : 25.0;
+            bool apart;
+            for (double volume = 1.1; volume < 1e6; volume *= 1.3) {
+                last.group[0].diameter[0] = (float)(1e-3 * pow(volume, 1.0 / dimension));
+                const double drawn = drawn_times(album, &last, &apart);
+                const double shown = volume > most ? maximum(most * most / volume, 1.0) : volume;
+                assert_int_equal(apart, volume > most);
+                assert_float_equal(drawn, pow(shown, 1.0 / dimension), 1e-3);
+            }
+            album_free(album);
+            frame_free(&first);
+            frame_free(&last);
+        }
+}
+
+/* Pixels that are darker than the colours of bodies. */
+static int count_dark(cairo_surface_t *surface)
+{
+    const int height = cairo_image_surface_get_height(surface);
+    int dark = 0;
+    for (int row = 140; row < height - 100; row++)
+        for (int column = 150; column < cairo_image_surface_get_width(surface) - 60; column++) {
+            const uint32_t colour = pixel(surface, column, row);
+            dark += (colour >> 16) + (colour >> 8 & 255) + (colour & 255) < 150;
+        }
+    return dark;
+}
+
+/* The border between two halves is an outline from top to bottom, also of particles that are
+ * smaller than a dot; dots that lie alone have none. */
+static void outlines_do_not_end_where_particles_are_small(void **state)
+{
+    (void)state;
+    char *names[] = {"body"};
+    for (int dimension = 2; dimension <= 3; dimension++)
+        for (int n = 100; n <= 800; n *= 2) {
+            struct picture_input pictures[1];
+            struct simulation_case input = case_of(dimension, names, 1, pictures);
+            struct frame frame = lattice(n, n, dimension == 3 ? 2 : 1);
+            if (dimension == 3)
+                pictures[0].direction = (struct vector_value){2, {0.0, 89.0, 0.0}};
+            struct album *album = album_of(&input, 2, &frame, &frame);
+            cairo_surface_t *surface = draw_surface(album, 0, &frame);
+            album->picture[0].view.outlines = false;
+            cairo_surface_t *without = draw_surface(album, 0, &frame);
+            const int dark = count_dark(surface) - count_dark(without);
+            if (dark < cairo_image_surface_get_height(surface) / 2)
+                fail_msg("%d-D, %d particles across: %d dark pixels", dimension, n, dark);
+            cairo_surface_destroy(surface);
+            cairo_surface_destroy(without);
+            album_free(album);
+            frame_free(&frame);
+        }
+}
+
+static void lone_dots_have_no_outlines(void **state)
+{
+    (void)state;
+    char *names[] = {"body"};
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        struct picture_input pictures[1];
+        struct simulation_case input = case_of(dimension, names, 1, pictures);
+        struct frame frame = lattice(40, 40, dimension == 3 ? 10 : 1);
+        for (int64_t i = 0; i < frame.group[0].count; i++)
+            frame.group[0].diameter[i] *= 0.1f;
+        struct album *album = album_of(&input, 1, &frame, &frame);
+        cairo_surface_t *surface = draw_surface(album, 0, &frame);
+        album->picture[0].view.outlines = false;
+        cairo_surface_t *without = draw_surface(album, 0, &frame);
+        assert_int_equal(count_dark(surface), count_dark(without));
+        cairo_surface_destroy(surface);
+        cairo_surface_destroy(without);
+        album_free(album);
+        frame_free(&frame);
+    }
+}
+
+/* The first column that is not white in the rows FIRST to LAST. */
+static int first_column(cairo_surface_t *surface, int first, int last)
+{
+    int column = 0;
+    for (; column < cairo_image_surface_get_width(surface); column++)
+        for (int row = first; row < last; row++)
+            if (pixel(surface, column, row) != 0xffffff)
+                return column;
+    return column;
+}
+
+/* On a wide page of a given size the title is above the picture, not left of it; one that is too
+ * long for that begins further left and is whole. */
+static void the_title_is_above_a_narrow_picture(void **state)
+{
+    (void)state;
+    char *names[] = {"pressure"};
+    struct picture_input pictures[1];
+    struct simulation_case input = case_of(2, names, 1, pictures);
+    struct frame frame = lattice(20, 20, 1);
+    const int size[2] = {1200, 600};
+    for (int wide = 0; wide < 2; wide++) {
+        if (wide)
+            input.title = "A title that is so long that it does not fit between the left edge of a "
+                          "narrow picture and the right edge";
+        struct album *album = album_of(&input, 1, &frame, &frame);
+        album_set_size(album, size);
+        cairo_surface_t *surface = draw_surface(album, 0, &frame);
+        const int title = first_column(surface, 8, 28), ticks = first_column(surface, 100, 400);
+        assert_int_equal(cairo_image_surface_get_width(surface), size[0]);
+        assert_true(wide ? title < ticks && title >= 60 : title > ticks && title < ticks + 90);
+        cairo_surface_destroy(surface);
+        album_free(album);
+    }
+    frame_free(&frame);
+}
+
 /* The mean brightness of the coloured pixels of a slab of N x N x 2 particles,
  * seen obliquely. */
 static double brightness_of_slab(int n)
@@ -431,6 +586,10 @@ int main(void)
         cmocka_unit_test(frames_have_one_size_and_a_uniform_field_one_colour),
         cmocka_unit_test(cracks_stay_visible_and_stretched_material_has_none),
         cmocka_unit_test(bodies_have_a_colour_each),
+        cmocka_unit_test(debris_is_drawn_as_dots_and_gas_as_a_whole),
+        cmocka_unit_test(outlines_do_not_end_where_particles_are_small),
+        cmocka_unit_test(lone_dots_have_no_outlines),
+        cmocka_unit_test(the_title_is_above_a_narrow_picture),
         cmocka_unit_test(a_face_is_as_bright_of_small_particles),
         cmocka_unit_test(in_one_dimension_all_members_are_dots),
         cmocka_unit_test(any_input_is_drawn_on_a_page_of_sane_size),
