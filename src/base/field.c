@@ -18,6 +18,10 @@ size_t fields_bytes(const struct field *field, int fields, unsigned kind)
 
 void *fields_find(const struct field *field, int fields, const char *name)
 {
+    /* solvers bind their fields in each step by the names that they declared them with */
+    for (int k = 0; k < fields; k++)
+        if (field[k].declaration.name == name)
+            return field[k].data;
     for (int k = 0; k < fields; k++)
         if (!strcmp(field[k].declaration.name, name))
             return field[k].data;
