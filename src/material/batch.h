@@ -194,6 +194,7 @@ BOLIDE_INLINE void batch_fail(const struct material *material, struct batch *b,
                                         .deviator = batch_tensor(b->new_deviator, k)};            \
             struct failing failing =                                                              \
                 material_failing(&motion, &point, b->plastic_strain[k] - strain[k], pressure[k]); \
+            failing.strain = b->plastic_strain[k];                                                \
             failing.relative = 1.0 + b->scatter[k];                                               \
             failing.homologous = homologous[k];                                                   \
             damage[k] = failure_##name(&material->failure.of.name, &failing, b->damage[k]);       \

@@ -228,6 +228,7 @@ BOLIDE_INLINE struct failing material_failing(const struct motion *motion,
     failing.pressure = pressure;
     failing.deviator = point->deviator;
     failing.flow = flow;
+    failing.strain = point->history[HISTORY_plastic_strain];
     failing.rate = strength_strain_rate(motion->strain_rate);
     failing.stretching = sym3_trace(motion->strain_rate);
     failing.relative = 1.0 + point->history[HISTORY_strength_scatter];

@@ -39,6 +39,9 @@
 /* Those that heat softens: strength_<identifier>_homologous(). */
 #define STRENGTH_SOFTENED(X, ...) X(johnson_cook, ##__VA_ARGS__)
 
+/* Those with traits.weakened: strength_<identifier>_weaken(). */
+#define STRENGTH_WEAKENED(X, ...) X(johnson_cook, ##__VA_ARGS__)
+
 /* Those that change the pressure of the equation of state: strength_<identifier>_cut(). */
 #define STRENGTH_CUTTING(X, ...) \
     X(hjc, ##__VA_ARGS__)        \
@@ -190,6 +193,16 @@ BOLIDE_INLINE void strength_take(struct strength *strength, double density,
 {
     switch (strength->kind) {
         STRENGTH_RESTING(STRENGTH_ANSWER, _take, density, rest)
+    default:
+        break;
+    }
+}
+
+/* Takes the fraction of its yield stress that damage of the failure model has taken at failure. */
+BOLIDE_INLINE void strength_weaken(struct strength *strength, double weakening)
+{
+    switch (strength->kind) {
+        STRENGTH_WEAKENED(STRENGTH_ANSWER, _weaken, weakening)
     default:
         break;
     }

@@ -5,12 +5,13 @@
 
 #include "material/material.h"
 
-/* Takes the constants of strength that follow from the equation of state. */
+/* Takes the constants of strength that follow from the equation of state and from failure. */
 BOLIDE_INLINE void material_complete(struct material *material)
 {
     const double none[POINT_HISTORY] = {0.0}, density = material_density(material);
     const struct eos_value rest = eos_evaluate(&material->eos, density, 0.0, none);
     strength_take(&material->strength, density, &rest);
+    strength_weaken(&material->strength, failure_traits(&material->failure).weakening);
 }
 
 /* The elastic limit in uniaxial strain at RATE, 1/s, that follows from the constants of a strength
@@ -39,7 +40,8 @@ BOLIDE_INLINE const char *material_failure_wrong(const struct material *material
 {
     if (!material_fails(material))
         return NULL;
-    const bool of_fluids = failure_traits(&material->failure).of_fluids;
+    const struct failure_traits failure = failure_traits(&material->failure);
+    const bool of_fluids = failure.of_fluids;
     if (of_fluids && material_has_strength(material))
         return "only a liquid cavitates, and this material has strength: give `spall`";
     if (!of_fluids && !material_has_strength(material))
@@ -47,6 +49,8 @@ BOLIDE_INLINE const char *material_failure_wrong(const struct material *material
                "none`";
     if (strength_takes_pressure(&material->strength))
         return "this strength model has a failure of its own";
+    if (failure.weakening > 0.0 && !strength_traits(&material->strength).weakened)
+        return "`coupling` weakens `strength: johnson-cook`, and no other";
     return NULL;
 }
 

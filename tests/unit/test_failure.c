@@ -166,6 +166,43 @@ static void damage_in_shear_bands_knows_the_size_of_particles(void **state)
     assert_close(damage_of(1e-3, 2.0), damage_of(none, 2.0), 1e-12);
 }
 
+/* Damage D from the plastic strain p_d on takes the fraction beta D of the yield stress, fails the
+ * point at D_c, and slows hardening: with p_d = 0 the strain that hardens is p (1 - beta D/2). */
+static void damage_weakens_where_it_is_coupled(void **state)
+{
+    (void)state;
+    struct material material = metal(0.0);
+    const struct strength_johnson_cook steel = {
+        .shear_modulus = 80e9, .a = 350e6, .b = 275e6, .n = 0.4, .rate = 1.0, .m = NAN};
+    material.strength = (struct strength){STRENGTH_johnson_cook, {.johnson_cook = steel}};
+    material.failure.kind = FAILURE_johnson_cook;
+    material.failure.of.johnson_cook = (struct failure_johnson_cook){.d1 = 0.5,
+                                                                     .rate = 1.0,
+                                                                     .least_strain = 0.01,
+                                                                     .spall = NAN,
+                                                                     .band = NAN,
+                                                                     .coupling = 0.8,
+                                                                     .critical = 0.5};
+    material_complete(&material);
+    struct point point = at_rest(&material);
+    strain_by(&material, 0.25, -0.125, -0.125, 1e-3, &point);
+    const double p = point.history[HISTORY_plastic_strain], d = p / 0.5;
+    assert_close(point.history[HISTORY_damage], d, 1e-9);
+    const double wanted = (1.0 - 0.4 * d) * (350e6 + 275e6 * pow(p * (1.0 - 0.2 * d), 0.4));
+    assert_close(sym3_mises(point.deviator), wanted, 1e-3);
+    assert_close(strength_yield(&material.strength, &point), wanted, 1e-3);
+    material.failure.of.johnson_cook.onset = 0.1;
+    point = at_rest(&material);
+    strain_by(&material, 0.25, -0.125, -0.125, 1e-3, &point);
+    const double q = point.history[HISTORY_plastic_strain];
+    assert_close(point.history[HISTORY_damage], (q - 0.1) / 0.4, 1e-3);
+    strain_by(&material, 0.3, -0.15, -0.15, 1e-3, &point);
+    assert_true(point.history[HISTORY_damage] == 1.0 && sym3_mises(point.deviator) == 0.0);
+    assert_null(material_failure_wrong(&material));
+    material.strength.kind = STRENGTH_perfect_plastic;
+    assert_non_null(material_failure_wrong(&material));
+}
+
 static void cockcroft_and_latham_add_work(void **state)
 {
     (void)state;
@@ -357,6 +394,7 @@ int main(void)
         cmocka_unit_test(johnson_cook_failure_strains),
         cmocka_unit_test(johnson_cook_damage_adds_up),
         cmocka_unit_test(damage_in_shear_bands_knows_the_size_of_particles),
+        cmocka_unit_test(damage_weakens_where_it_is_coupled),
         cmocka_unit_test(cockcroft_and_latham_add_work),
         cmocka_unit_test(grady_takes_the_weaker_of_cracks_and_holes),
         cmocka_unit_test(fluids_and_models_that_fail_by_themselves_take_none),

@@ -15,6 +15,7 @@ struct failing {
     double pressure;      /* of density and energy, before a limit of tension, Pa */
     struct sym3 deviator; /* of stress, Pa */
     double flow, rate;    /* plastic strain of the step; equivalent strain rate, 1/s */
+    double strain;        /* plastic, after the step */
     double stretching;    /* trace of the strain rate, 1/s */
     double homologous;    /* T* of the strength model; zero where it has none */
     double relative;      /* its strength over the characteristic one of its material */
@@ -56,6 +57,7 @@ struct failure_traits {
     bool batched;        /* of many points at once: it does not ask for sound and yield */
     bool at_contacts;    /* pairs of particles break, points do not */
     bool of_fluids;      /* for material without strength, and for no other */
+    double weakening;    /* fraction of the yield stress that damage has taken at failure */
     /* Why its parameters do not go together, and the parameter to name; NULL when they do. */
     const char *wrong, *wrong_key;
 };

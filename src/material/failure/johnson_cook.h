@@ -8,7 +8,11 @@
  * exp(D3 s) of some published sets falls below zero. Its default exceeds the plastic strain of the
  * outermost SPH particle in its short tension while a shock of a few GPa reflects at a free face.
  * T* is that of the strength model. A mean tension of `spall`, where given, fails the point at
- * once. Source: Johnson and Cook, Eng. Fract. Mech. 21 (1985) 31; the least strain is ours. */
+ * once. Source: Johnson and Cook, Eng. Fract. Mech. 21 (1985) 31; the least strain is ours.
+ *
+ * Damage can weaken the strength, by the fraction beta D where D grows by D_c d eps/(eps_f - p_d)
+ * from the plastic strain p_d on and the point fails at D = D_c; our damage is D/D_c. Source:
+ * Borvik, Hopperstad, Berstad and Langseth, Eur. J. Mech. A 20 (2001) 685, recalled. */
 #ifndef BOLIDE_FAILURE_JOHNSON_COOK_H
 #define BOLIDE_FAILURE_JOHNSON_COOK_H
 
@@ -21,6 +25,9 @@ struct failure_johnson_cook {
     double least_strain; /* of eps_f */
     double spall;        /* Pa; NAN: none */
     double band;         /* m; NAN: none */
+    double coupling;     /* beta */
+    double critical;     /* D_c */
+    double onset;        /* p_d */
 };
 
 #define FAILURE_johnson_cook_NAME "johnson-cook"
@@ -37,6 +44,12 @@ struct failure_johnson_cook {
            "least failure strain, where the formula gives less")                                \
     NUMBER(T, spall, "Pa", OPTIONAL, POSITIVE,                                                  \
            "mean tension at which it fails at once; default: none")                             \
+    NUMBER(T, coupling, "", "0", FROM_ZERO_TO_ONE,                                              \
+           "beta: damage D takes the fraction beta D of the yield stress; 0: none, 1: as in "   \
+           "Borvik's model; with `strength: johnson-cook`")                                     \
+    NUMBER(T, critical, "", "1", FROM_ZERO_TO_ONE,                                              \
+           "D_c: damage D at failure; the field `damage` is D/D_c; matters with `coupling`")    \
+    NUMBER(T, onset, "", "0", NOT_NEGATIVE, "p_d: plastic strain at which damage begins")       \
     FAILURE_BAND(T) FAILURE_COMMON(T)
 
 /* eps_f at the mean stress over Mises stress TRIAXIALITY, RATE (1/s) and T* HOMOLOGOUS. */
@@ -58,7 +71,10 @@ BOLIDE_INLINE double failure_johnson_cook(const struct failure_johnson_cook *fai
     const double strain =
         johnson_cook_failure_strain(failure, triaxiality, point->rate, point->homologous);
     const double flow = point->flow * failing_haste(point, failure->band, triaxiality);
-    const double grown = damage + (flow > 0.0 ? flow / (strain * point->relative) : 0.0);
+    const double whole = strain * point->relative,
+                 left = maximum(whole - failure->onset, 0.1 * whole);
+    const double grown =
+        damage + (flow > 0.0 && point->strain > failure->onset ? flow / left : 0.0);
     return -point->pressure >= failure->spall * point->relative
                ? 1.0
                : grown; /* not where there is none: NAN */
@@ -70,6 +86,7 @@ BOLIDE_INLINE struct failure_traits failure_johnson_cook_traits(
     struct failure_traits traits = failure_default_traits();
     traits.batched = true;
     traits.limits_tension = !isnan(failure->spall);
+    traits.weakening = failure->coupling * failure->critical;
     return traits;
 }
 

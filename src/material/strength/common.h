@@ -23,6 +23,8 @@ struct strength_traits {
     double spread_speed;
     /* It has a step of many points at once. */
     bool batched;
+    /* Damage of a failure model can weaken it. */
+    bool weakened;
     /* The specific heat by which it computes temperatures, J/(kg K); NAN: it has none. */
     double capacity;
     /* Why its parameters do not go together, and the parameter to name; NULL when they do. */
@@ -32,7 +34,7 @@ struct strength_traits {
 /* The traits of a model that says no more. */
 BOLIDE_INLINE struct strength_traits strength_default_traits(void)
 {
-    struct strength_traits traits = {0, false, false, false, 0.0, false, (double)NAN, NULL, NULL};
+    struct strength_traits traits = {.capacity = (double)NAN};
     return traits;
 }
 

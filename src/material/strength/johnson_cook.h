@@ -12,7 +12,15 @@
  * that of the public MPM3D codes: d eps = (S_eq - Y)/[3 G + B n (eps + 1e-4)^(n-1)] with the Y
  * before the step, then the stress is put on Y after it; their Y before the step is stored, ours
  * has the strain rate of the step. Source: Johnson and Cook, Proc. 7th Int. Symp. Ballistics (1983)
- * 541, in the form of Cui, dissertation (2014). */
+ * 541, in the form of Cui, dissertation (2014).
+ *
+ * Damage that is coupled to strength takes the fraction w of Y, and flow hardens less by it:
+ *
+ *   Y = (1 - w)(A + B r^n) ...,  dr = (1 - w) d eps,  w = beta D
+ *
+ * r is taken as (1 - w/2) eps, which it is where damage grows in proportion to eps. Elastic moduli
+ * and pressure stay those of intact material. Source: Borvik, Hopperstad, Berstad and Langseth,
+ * Eur. J. Mech. A 20 (2001) 685, recalled. */
 #ifndef BOLIDE_STRENGTH_JOHNSON_COOK_H
 #define BOLIDE_STRENGTH_JOHNSON_COOK_H
 
@@ -29,6 +37,7 @@ struct strength_johnson_cook {
     double m;                    /* NAN: heat does not soften, and what follows is not used */
     double room, melt, capacity; /* T_room, T_melt, K; c_v, J/(kg K) */
     int return_map;              /* enum johnson_cook_return */
+    double weakening;            /* w at failure; of the failure model: strength_weaken() */
 };
 
 #define STRENGTH_johnson_cook_NAME "johnson-cook"
@@ -76,6 +85,18 @@ BOLIDE_INLINE double johnson_cook_softening(const struct strength_johnson_cook *
     return 1.0 - power(strength_johnson_cook_homologous(solid, heating), solid->m);
 }
 
+/* 1 - w at DAMAGE of the failure model. */
+BOLIDE_INLINE double johnson_cook_bearing(const struct strength_johnson_cook *solid, double damage)
+{
+    return 1.0 - solid->weakening * minimum(damage, 1.0);
+}
+
+/* r at plastic STRAIN, where 1 - w is BEARING. */
+BOLIDE_INLINE double johnson_cook_hardened(double strain, double bearing)
+{
+    return strain * (0.5 + 0.5 * bearing);
+}
+
 /* 1 + C ln max(rate/rate_0, 1). */
 BOLIDE_INLINE double johnson_cook_hastening(const struct strength_johnson_cook *solid, double rate)
 {
@@ -101,17 +122,20 @@ BOLIDE_INLINE double johnson_cook_stress(const struct strength_johnson_cook *sol
 BOLIDE_INLINE double strength_johnson_cook_yield(const struct strength_johnson_cook *solid,
                                                  const struct point *point)
 {
-    double heating = johnson_cook_softens(solid) ? point->history[HISTORY_plastic_heating] : 0.0;
-    return johnson_cook_stress(solid, point->history[HISTORY_plastic_strain], 0.0, heating);
+    const double heating =
+        johnson_cook_softens(solid) ? point->history[HISTORY_plastic_heating] : 0.0;
+    const double bearing = johnson_cook_bearing(solid, point->history[HISTORY_damage]);
+    const double strain = johnson_cook_hardened(point->history[HISTORY_plastic_strain], bearing);
+    return bearing * johnson_cook_stress(solid, strain, 0.0, heating);
 }
 
 /* Up to eight points that flow, each on its own: what it does for one does not depend on the
  * others. */
 struct johnson_cook_points {
     double trial[LANES];     /* Mises stress of the elastic trial, beyond YIELD */
-    double strain[LANES];    /* plastic, before the step */
+    double strain[LANES];    /* r before the step */
     double yield[LANES];     /* Y before the step; implicit: of slow flow */
-    double softening[LANES]; /* 1 - T*^m */
+    double softening[LANES]; /* (1 - T*^m)(1 - w) */
     double flow[LANES];      /* the plastic strain of the step: found */
     double stress[LANES];    /* and the Mises stress after it */
 };
@@ -197,8 +221,11 @@ BOLIDE_INLINE void strength_johnson_cook(const struct strength_johnson_cook *sol
 {
     (void)bulk_modulus;
     struct sym3 s = strength_elastic(solid->shear_modulus, motion, point->deviator);
-    double trial = sym3_mises(s), strain = point->history[HISTORY_plastic_strain];
-    double softening = johnson_cook_softening(solid, point->history[HISTORY_plastic_heating]);
+    const double bearing = johnson_cook_bearing(solid, point->history[HISTORY_damage]);
+    double trial = sym3_mises(s);
+    double strain = johnson_cook_hardened(point->history[HISTORY_plastic_strain], bearing);
+    double softening =
+        johnson_cook_softening(solid, point->history[HISTORY_plastic_heating]) * bearing;
     double yield = johnson_cook_slow(solid, strain, softening);
     point->deviator = s;
     if (solid->return_map == JOHNSON_COOK_EXPLICIT)
@@ -212,22 +239,25 @@ BOLIDE_INLINE void strength_johnson_cook(const struct strength_johnson_cook *sol
         johnson_cook_flow(solid, 1, motion->dt, &one);
     const double flow = one.flow[0], stress = one.stress[0];
     point->deviator = sym3_scale(stress / trial, s);
-    point->history[HISTORY_plastic_strain] = strain + flow;
+    point->history[HISTORY_plastic_strain] += flow;
     if (johnson_cook_softens(solid))
         point->history[HISTORY_plastic_heating] +=
             stress * flow / (motion->density * solid->capacity);
 }
 
-/* What points flow that flow at all: those are put side by side. YIELD is Y before the step. */
+/* Points of a batch, before they are put side by side: see johnson_cook_points. */
+struct johnson_cook_batch {
+    double trial[BATCH], strain[BATCH], yield[BATCH], softening[BATCH], flow[BATCH], stress[BATCH];
+};
+
+/* What points flow that flow at all: those are put side by side. */
 BOLIDE_INLINE void johnson_cook_batch_flow(const struct strength_johnson_cook *solid,
-                                           const struct batch *b, const double *trial,
-                                           const double *yield, const double *softening,
-                                           double *flow, double *stress)
+                                           const struct batch *b, struct johnson_cook_batch *of)
 {
     int flowing[BATCH + LANES], count = 0;
     for (int k = 0; k < b->count; k++) {
         flowing[count] = k;
-        count += trial[k] > yield[k];
+        count += of->trial[k] > of->yield[k];
     }
     if (count == 0)
         return;
@@ -237,18 +267,18 @@ BOLIDE_INLINE void johnson_cook_batch_flow(const struct strength_johnson_cook *s
         const int *at = flowing + first;
         struct johnson_cook_points p;
         for (int lane = 0; lane < LANES; lane++) {
-            p.trial[lane] = trial[at[lane]];
-            p.strain[lane] = b->plastic_strain[at[lane]];
-            p.yield[lane] = yield[at[lane]];
-            p.softening[lane] = softening[at[lane]];
+            p.trial[lane] = of->trial[at[lane]];
+            p.strain[lane] = of->strain[at[lane]];
+            p.yield[lane] = of->yield[at[lane]];
+            p.softening[lane] = of->softening[at[lane]];
         }
         if (solid->return_map == JOHNSON_COOK_EXPLICIT)
             johnson_cook_flow_once(solid, LANES, b->dt, &p);
         else
             johnson_cook_flow(solid, LANES, b->dt, &p);
         for (int lane = 0; lane < LANES; lane++) {
-            flow[at[lane]] = p.flow[lane];
-            stress[at[lane]] = p.stress[lane];
+            of->flow[at[lane]] = p.flow[lane];
+            of->stress[at[lane]] = p.stress[lane];
         }
     }
 }
@@ -256,34 +286,47 @@ BOLIDE_INLINE void johnson_cook_batch_flow(const struct strength_johnson_cook *s
 BOLIDE_INLINE void strength_johnson_cook_batch(const struct strength_johnson_cook *solid,
                                                struct batch *b)
 {
-    double trial[BATCH], yield[BATCH], softening[BATCH], flow[BATCH], stress[BATCH];
+    struct johnson_cook_batch of;
     const bool softens = johnson_cook_softens(solid);
     for (int k = 0; k < b->count; k++) {
         const struct motion motion = batch_motion(b, k);
         const struct sym3 s =
             strength_elastic(solid->shear_modulus, &motion, batch_tensor(b->deviator, k));
         batch_keep_tensor(b->new_deviator, k, s);
-        trial[k] = stress[k] = sym3_mises(s);
-        softening[k] = 1.0;
-        flow[k] = 0.0;
+        of.trial[k] = of.stress[k] = sym3_mises(s);
+        of.strain[k] = b->plastic_strain[k];
+        of.softening[k] = 1.0;
+        of.flow[k] = 0.0;
     }
     if (softens)
         for (int k = 0; k < b->count; k++)
-            softening[k] = johnson_cook_softening(solid, b->plastic_heating[k]);
+            of.softening[k] = johnson_cook_softening(solid, b->plastic_heating[k]);
+    for (int k = 0; k < b->count && solid->weakening > 0.0; k++) {
+        const double bearing = johnson_cook_bearing(solid, b->damage[k]);
+        of.strain[k] = johnson_cook_hardened(b->plastic_strain[k], bearing);
+        of.softening[k] *= bearing;
+    }
     for (int k = 0; k < b->count; k++)
-        yield[k] = johnson_cook_slow(solid, b->plastic_strain[k], softening[k]);
+        of.yield[k] = johnson_cook_slow(solid, of.strain[k], of.softening[k]);
     if (solid->return_map == JOHNSON_COOK_EXPLICIT)
         for (int k = 0; k < b->count; k++)
-            yield[k] *= johnson_cook_hastening(
+            of.yield[k] *= johnson_cook_hastening(
                 solid, strength_strain_rate(batch_tensor(b->strain_rate, k)));
-    johnson_cook_batch_flow(solid, b, trial, yield, softening, flow, stress);
+    johnson_cook_batch_flow(solid, b, &of);
     for (int k = 0; k < b->count; k++) {
-        const double share = flow[k] > 0.0 ? stress[k] / trial[k] : 1.0;
+        const double share = of.flow[k] > 0.0 ? of.stress[k] / of.trial[k] : 1.0;
         batch_keep_tensor(b->new_deviator, k, sym3_scale(share, batch_tensor(b->new_deviator, k)));
-        b->plastic_strain[k] += flow[k];
+        b->plastic_strain[k] += of.flow[k];
         if (softens)
-            b->plastic_heating[k] += stress[k] * flow[k] / (b->new_density[k] * solid->capacity);
+            b->plastic_heating[k] +=
+                of.stress[k] * of.flow[k] / (b->new_density[k] * solid->capacity);
     }
+}
+
+BOLIDE_INLINE void strength_johnson_cook_weaken(struct strength_johnson_cook *solid,
+                                                double weakening)
+{
+    solid->weakening = weakening;
 }
 
 /* Softening needs both temperatures and the capacity. */
@@ -291,7 +334,7 @@ BOLIDE_INLINE struct strength_traits strength_johnson_cook_traits(
     const struct strength_johnson_cook *solid)
 {
     struct strength_traits traits = strength_default_traits();
-    traits.batched = true;
+    traits.batched = traits.weakened = true;
     traits.capacity = solid->capacity;
     if (!johnson_cook_softens(solid))
         return traits;
