@@ -83,6 +83,12 @@ static void check_material(struct checking *checking, int index)
         case_wrong(checking, "afterburn", "without `energy` it heats nothing: give it");
     if (afterburn->energy > 0.0 && afterburn->rate == 0.0)
         case_wrong(checking, "afterburn", "without `rate` nothing burns: give it");
+    if (afterburn->slow_energy > 0.0 && afterburn->slow_rate == 0.0)
+        case_wrong(checking, "afterburn", "without `slow_rate` nothing burns slowly: give it");
+    if (afterburn->slow_rate > 0.0 && afterburn->slow_energy == 0.0)
+        case_wrong(checking, "afterburn", "without `slow_energy` nothing burns slowly: give it");
+    if (afterburn->energy == 0.0 && (afterburn->slow_energy > 0.0 || afterburn->air > 0.0))
+        case_wrong(checking, "afterburn", "the second stage follows the first: give `energy`");
     if ((text = material_burn_wrong(material->material)))
         case_wrong(checking, "burn", "%s", text);
 }

@@ -25,6 +25,16 @@ static const struct parameter afterburn_table[] = {
               .closed = true),
     PARAMETER(NUMBER, struct afterburn, power, "0", "n: exponent of the pressure",
               .below = INFINITY, .closed = true),
+    PARAMETER(NUMBER, struct afterburn, slow_energy, "0 J/kg",
+              "heat per mass of the products in a second stage, after the first; default: none",
+              .unit = "J/kg", .below = INFINITY, .closed = true),
+    PARAMETER(NUMBER, struct afterburn, slow_rate, "0 1/s",
+              "rate of the second stage: dl/dt = rate (1 - l)", .unit = "1/s", .below = INFINITY,
+              .closed = true),
+    PARAMETER(NUMBER, struct afterburn, air, "0",
+              "mass of air that a mass of products takes to burn; burning ends when that of the "
+              "domain at the start is used up; default: there is always enough",
+              .below = INFINITY, .closed = true),
     PARAMETER_END,
 };
 

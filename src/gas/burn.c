@@ -117,6 +117,27 @@ struct error *gas_burn(struct gas *gas, const struct simulation *simulation, dou
     return NULL;
 }
 
+void gas_count_air(struct gas *gas, const struct simulation *simulation)
+{
+    const struct cell_blocks *cells = gas->cells;
+    const double volume = pow(cells->edge, cells->dimension), takes = gas->afterburn.air;
+    struct exact_sum mass[2] = {{{0}, 0, false}, {{0}, 0, false}}; /* of air, of products */
+    gas->most_afterburnt = 1.0;
+    if (!gas->layout.afterburns || !(takes > 0.0))
+        return;
+    for (int32_t i = 0; i < cells->count; i++) {
+        if (gas->open && gas->open[i] == 0.0)
+            continue;
+        const double size = gas_cell_volume(volume, cells->edge, cells->position[i][0], gas->round);
+        const double second = gas->u[GAS_SECOND][i];
+        exact_sum_add(&mass[0], size * (gas->u[GAS_DENSITY][i] - second));
+        exact_sum_add(&mass[1], size * second);
+    }
+    ranks_sum_exact(simulation->ranks, mass, 2);
+    const double air = exact_sum_value(&mass[0]), products = exact_sum_value(&mass[1]);
+    gas->most_afterburnt = products > 0.0 ? minimum(1.0, air / (takes * products)) : 1.0;
+}
+
 /* Block B over DT. */
 static void afterburn_block(struct gas *gas, int32_t b, double dt, struct ledger *ledger)
 {
@@ -130,8 +151,9 @@ static void afterburn_block(struct gas *gas, int32_t b, double dt, struct ledger
         if (mass <= 0.0 || (burnt && burnt[i] < 1.0) || (gas->open && gas->open[i] == 0.0))
             continue;
         double *own = &gas->u[GAS_AFTERBURNT][i];
-        const double gain = afterburn_gain(&gas->afterburn, *own / mass, cells->pressure[i], dt),
-                     heat = mass * gain * gas->afterburn.energy;
+        const double gain = afterburn_gain(&gas->afterburn, *own / mass, cells->pressure[i],
+                                           gas->most_afterburnt, dt),
+                     heat = mass * gain * afterburn_heat(&gas->afterburn);
         *own += mass * gain;
         gas->u[GAS_ENERGY][i] += heat;
         if (heat > 0.0)

@@ -330,5 +330,6 @@ struct error *gas_fill(void *solver, struct simulation *simulation)
     free(f.here);
     TRY(ranks_agree(simulation->ranks, error ? error : f.error));
     TRY(gas_start_from(gas, simulation));
+    gas_count_air(gas, simulation);
     return gas->layout.marked ? gas_make_markers(gas) : NULL;
 }

@@ -371,6 +371,8 @@ static struct error *gas_advance(void *solver, struct simulation *simulation, do
 static struct error *gas_state(void *solver, struct visitor *visitor)
 {
     struct gas *gas = solver;
+    if (gas->layout.afterburns && gas->afterburn.air > 0.0)
+        TRY(visitor->visit(visitor, "afterburn/most", NUMBER_DOUBLE, &gas->most_afterburnt, 1, 1));
     return gas->layout.marked ? gas_visit_markers(gas, visitor) : NULL;
 }
 

@@ -47,10 +47,11 @@ struct gas {
     int material[2]; /* the same twice: there is one */
     struct gas_layout layout;
     struct afterburn afterburn;
-    double detonation; /* its speed, m/s, of an explosive that is lit */
-    bool unburnt;      /* some of it is, on some rank */
-    bool thaws;        /* the second material is never colder than 0 K */
-    int round;         /* the power of x in a volume: 0 unless x is a radius */
+    double most_afterburnt; /* the fraction of the products for which there is air */
+    double detonation;      /* its speed, m/s, of an explosive that is lit */
+    bool unburnt;           /* some of it is, on some rank */
+    bool thaws;             /* the second material is never colder than 0 K */
+    int round;              /* the power of x in a volume: 0 unless x is a radius */
     struct cell_halo halo;
     uint64_t order; /* of the blocks when the strips were made */
     int32_t room;   /* cells for which `other` has room */
@@ -115,9 +116,10 @@ struct error *gas_fill_planes(const struct gas *gas, const struct simulation *si
 void gas_lay_out(struct gas_layout *layout);
 
 /* Explosives that are lit, and products that burn in the air (burn.c). The first, collective: how
- * much has burnt at TIME, and whether some has not. The second adds the heat of afterburning over
- * DT. */
+ * much has burnt at TIME, and whether some has not. The second, collective: for which fraction of
+ * the products the cells as they are have air. The third adds the heat of afterburning over DT. */
 struct error *gas_burn(struct gas *gas, const struct simulation *simulation, double time);
+void gas_count_air(struct gas *gas, const struct simulation *simulation);
 void gas_afterburn(struct gas *gas, struct simulation *simulation, double dt);
 
 /* Whether no body of the second material is colder than 0 K at the start. */
