@@ -175,6 +175,29 @@ BOLIDE_INLINE void batch_wait(const struct material *material, struct batch *b,
     }
 }
 
+/* Voids grow in the points of a batch, as material_grow_voids has it, at the pressures TRIAL. */
+BOLIDE_INLINE void batch_grow_voids(const struct material *material,
+                                    const struct void_growth *growth, const double *trial,
+                                    struct batch *b, struct batch_matter *matter)
+{
+    for (int k = 0; k < b->count; k++) {
+        struct point point = {.density = matter->density[k], .energy = b->energy[k]};
+        if (b->damage[k] >= 1.0)
+            continue;
+        b->void_ratio[k] = 0.0;
+        if (!(-trial[k] > growth->strength * (1.0 + b->scatter[k]) * (1.0 - b->damage[k])))
+            continue;
+        for (int slot = 0; slot < POINT_HISTORY; slot++)
+            point.history[slot] = 0.0;
+        point.history[HISTORY_strength_scatter] = b->scatter[k];
+        point.history[HISTORY_damage] = b->damage[k];
+        material_grow_voids(material, growth, trial[k], &point);
+        b->damage[k] = point.history[HISTORY_damage];
+        b->void_ratio[k] = point.history[HISTORY_void_ratio];
+        matter->density[k] = point.density;
+    }
+}
+
 /* The failure model, after the strength; STRAIN is the plastic strain before. */
 BOLIDE_INLINE void batch_fail(const struct material *material, struct batch *b,
                               const double *strain, struct batch_matter *matter)
@@ -208,6 +231,9 @@ BOLIDE_INLINE void batch_fail(const struct material *material, struct batch *b,
     for (int k = 0; k < b->count; k++) {
         b->damage[k] = b->damage[k] < 1.0 ? minimum(damage[k], 1.0) : b->damage[k];
     }
+    const struct void_growth growth = failure_traits(&material->failure).growth;
+    if (growth.most > 0.0)
+        batch_grow_voids(material, &growth, pressure, b, matter);
     if (failure_waits(&material->failure))
         batch_wait(material, b, matter);
     for (int k = 0; k < b->count; k++)

@@ -142,6 +142,8 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
         {FAILURE_spall, {.spall = {.friction = 0.3, .strength = 1e9}}},
         {FAILURE_spall, {.spall = {.friction = 0.3, .strength = 0.5e9, .stress = SPALL_MEAN}}},
         {FAILURE_spall, {.spall = {.friction = 0.3, .strength = 1e9, .onset = SPALL_STANDING}}},
+        {FAILURE_spall,
+         {.spall = {.friction = 0.3, .strength = 0.5e9, .growth = 0.15, .stress = SPALL_MEAN}}},
         {FAILURE_johnson_cook,
          {.johnson_cook = {.friction = 0.3,
                            .d1 = 0.01,

@@ -83,6 +83,70 @@ static void voids_close_before_failed_material_resists(void **state)
     assert_close(point.density, 2700.0, 1e-3);
 }
 
+/* Voids grow from the strength on, and the tension falls in proportion to them. What is pressed
+ * together before it fails keeps its damage. */
+static void tension_falls_while_voids_grow(void **state)
+{
+    (void)state;
+    struct material material = metal(100e6);
+    material.failure.kind = FAILURE_spall;
+    material.failure.of.spall = (struct failure_spall){
+        .friction = 0.3, .strength = 1e9, .growth = 0.15, .stress = SPALL_MEAN};
+    struct point point = at_rest(&material);
+    const double onset = 1e9 / (2700.0 * square(5350.0));
+    strain_by(&material, 0.95 * onset, 0.0, 0.0, 1e-6, &point);
+    assert_true(point.history[HISTORY_damage] == 0.0 && point.history[HISTORY_void_ratio] == 0.0);
+    assert_close(point.pressure, -0.95 * 1e9, 0.06);
+    strain_by(&material, 0.07, 0.0, 0.0, 1e-6, &point);
+    const double damage = point.history[HISTORY_damage];
+    assert_true(damage > 0.4 && damage < 0.6);
+    assert_close(point.history[HISTORY_void_ratio], 0.15 * damage, 1e-12);
+    assert_close(point.pressure, -1e9 * (1.0 - damage), 0.01);
+    struct point closed = point;
+    strain_by(&material, -0.09, 0.0, 0.0, 1e-6, &closed);
+    assert_true(closed.history[HISTORY_void_ratio] == 0.0 && closed.pressure > 0.0);
+    assert_true(closed.history[HISTORY_damage] == damage);
+    strain_by(&material, 0.1, 0.0, 0.0, 1e-6, &point);
+    assert_true(point.history[HISTORY_damage] == 1.0 && point.pressure == 0.0);
+}
+
+static void voids_do_the_work_of_half_the_strength(void **state)
+{
+    (void)state;
+    struct material material = metal(1.0);
+    material.failure.kind = FAILURE_spall;
+    material.failure.of.spall =
+        (struct failure_spall){.strength = 1e9, .growth = 0.15, .stress = SPALL_MEAN};
+    struct point point = at_rest(&material);
+    double work = 0.0, volume = 1.0;
+    const double dt = 1e-10, rate = 1e6;
+    for (int k = 0; k < 2000; k++) {
+        struct motion motion = {.dt = dt, .energy = 0.0, .length = 1e-3};
+        const double before = point.pressure, next = volume * exp(rate * dt);
+        motion.strain_rate = (struct sym3){rate, 0.0, 0.0, 0.0, 0.0, 0.0};
+        motion.density = point.density * exp(-rate * dt);
+        (void)material_step(&material, &point, &motion);
+        work -= 0.5 * (before + point.pressure) * (next - volume);
+        volume = next;
+    }
+    assert_true(point.history[HISTORY_damage] == 1.0);
+    assert_close(work, 0.5 * 1e9 * 0.15, 0.02);
+}
+
+static void growth_of_voids_needs_a_mean_tension(void **state)
+{
+    (void)state;
+    const char *key;
+    struct failure failure = {.kind = FAILURE_spall};
+    failure.of.spall = (struct failure_spall){.strength = 1e9, .growth = 0.15};
+    assert_non_null(failure_wrong(&failure, &key));
+    assert_string_equal(key, "growth");
+    failure.of.spall.stress = SPALL_MEAN;
+    assert_null(failure_wrong(&failure, &key));
+    failure.of.spall.onset = SPALL_STANDING;
+    assert_non_null(failure_wrong(&failure, &key));
+}
+
 /* Constants of OFHC copper (Johnson and Cook, 1985). */
 static const struct failure_johnson_cook copper = {.d1 = 0.54,
                                                    .d2 = 4.89,
@@ -391,6 +455,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spall_limits_the_largest_stress_and_leaves_no_tension),
         cmocka_unit_test(voids_close_before_failed_material_resists),
+        cmocka_unit_test(tension_falls_while_voids_grow),
+        cmocka_unit_test(voids_do_the_work_of_half_the_strength),
+        cmocka_unit_test(growth_of_voids_needs_a_mean_tension),
         cmocka_unit_test(johnson_cook_failure_strains),
         cmocka_unit_test(johnson_cook_damage_adds_up),
         cmocka_unit_test(damage_in_shear_bands_knows_the_size_of_particles),

@@ -52,12 +52,19 @@ struct failing {
 
 #define FAILURE_COMMON(T) FAILURE_FRICTION(T) FAILURE_SCATTER(T)
 
+/* The mean tension at which voids begin to grow, Pa, and their volume over that of the material at
+ * failure; zero: there is no growth. */
+struct void_growth {
+    double strength, most;
+};
+
 struct failure_traits {
     bool limits_tension; /* by a stress that it is given */
     bool batched;        /* of many points at once: it does not ask for sound and yield */
     bool at_contacts;    /* pairs of particles break, points do not */
     bool of_fluids;      /* for material without strength, and for no other */
     double weakening;    /* fraction of the yield stress that damage has taken at failure */
+    struct void_growth growth;
     /* Why its parameters do not go together, and the parameter to name; NULL when they do. */
     const char *wrong, *wrong_key;
 };

@@ -1,6 +1,6 @@
-/* Tension cut-off: a point fails where its tension reaches a given strength, all at once or when
- * the edge of the tension stands still. The tension is the largest principal stress or the mean
- * stress. */
+/* Tension cut-off: a point fails where its tension reaches a given strength, all at once, when the
+ * edge of the tension stands still, or when voids have grown. The tension is the largest principal
+ * stress or the mean stress. */
 #ifndef BOLIDE_FAILURE_SPALL_H
 #define BOLIDE_FAILURE_SPALL_H
 
@@ -12,6 +12,7 @@ enum spall_onset { SPALL_AT_ONCE, SPALL_STANDING };
 struct failure_spall {
     FAILURE_MEMBERS
     double strength; /* Pa */
+    double growth;   /* of voids, to failure; 0: at once */
     int stress;      /* enum spall_stress */
     int onset;       /* enum spall_onset */
 };
@@ -28,6 +29,9 @@ struct failure_spall {
            "standing: when the edge of the tension stands still, so that a pulse of several " \
            "strengths breaks off layer after layer; with SPH",                                \
            "at-once", "standing")                                                             \
+    NUMBER(T, growth, "", "0", NOT_NEGATIVE,                                                  \
+           "volume of the voids over that of the material at which it fails; while they "     \
+           "grow, the mean tension falls from the strength to zero; 0: it fails at once")     \
     FAILURE_COMMON(T)
 
 BOLIDE_INLINE double spall_tension(const struct failure_spall *spall, const struct failing *point)
@@ -38,7 +42,7 @@ BOLIDE_INLINE double spall_tension(const struct failure_spall *spall, const stru
 BOLIDE_INLINE double failure_spall(const struct failure_spall *spall, const struct failing *point,
                                    double damage)
 {
-    const bool waits = spall->onset == SPALL_STANDING;
+    const bool waits = spall->onset == SPALL_STANDING || spall->growth > 0.0;
     return !waits && spall_tension(spall, point) >= spall->strength * point->relative ? 1.0
                                                                                       : damage;
 }
@@ -76,9 +80,17 @@ BOLIDE_INLINE double spall_overload(const struct failure_spall *spall, const str
 BOLIDE_INLINE struct failure_traits failure_spall_traits(const struct failure_spall *spall)
 {
     struct failure_traits traits = failure_default_traits();
-    (void)spall;
     traits.batched = true;
     traits.limits_tension = true;
+    traits.growth = (struct void_growth){spall->strength, spall->growth};
+    if (spall->growth > 0.0 && spall->stress != SPALL_MEAN) {
+        traits.wrong = "voids grow by the mean tension: choose `stress: mean`";
+        traits.wrong_key = "growth";
+    }
+    if (spall->growth > 0.0 && spall->onset != SPALL_AT_ONCE) {
+        traits.wrong = "voids grow from the strength on: leave `onset` out";
+        traits.wrong_key = "growth";
+    }
     return traits;
 }
 
