@@ -27,10 +27,11 @@ struct error *case_fill_material(struct material_input *material)
     material->material = plain;
     plain->heat = material->heat;
     plain->afterburn = material->afterburn;
-    if (isnan(plain->afterburn.energy))
-        plain->afterburn.energy = 0.0;
-    if (isnan(plain->afterburn.rate))
-        plain->afterburn.rate = 0.0;
+    double *const none[] = {&plain->afterburn.energy, &plain->afterburn.rate,
+                            &plain->afterburn.slow_energy, &plain->afterburn.slow_rate};
+    for (size_t k = 0; k < COUNT_OF(none); k++)
+        if (isnan(*none[k]))
+            *none[k] = 0.0;
     if (material->eos.value) {
         plain->eos.kind = (enum eos_kind)material->eos.index;
         memcpy(&plain->eos.of, material->eos.value, material->eos.choice->size);
