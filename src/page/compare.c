@@ -305,10 +305,13 @@ static struct error *compare_column(struct comparison *c, const char *name, cons
     bool any = false;
     for (int r = 0; r < c->request->runs; r++)
         any |= curve_varies(&column.run[r]);
-    if (!error && any)
+    if (!error && any) {
+        fputs("<div>\n", c->page.file); /* one place for a plot and what is said of it */
         error = put_plot(c, title, unit, column.drawn, column.lines);
+    }
     if (!error)
         judge_column(c, &column, unit);
+    fputs(any ? "</div>\n" : "", c->page.file);
     for (int r = 0; r < c->request->runs; r++) {
         free(column.run[r].time);
         free(column.exact[r].time);

@@ -398,7 +398,8 @@ void main(){ ivec2 p=ivec2(gl_FragCoord.xy), m=textureSize(depth,0)-1;
                 g.stroke();
                 g.fillText(+v.toPrecision(6), s[0] + 15 * r * n[0], s[1] + 14 * r * n[1]);
             }
-            g.fillText('xyz'[a] + ' (' + M.unit + ')', (A[0] + B[0]) / 2 + 36 * r * n[0],
+            const name = 'xyz'[a] + ' (' + M.unit + ')', wide = g.measureText(name).width / 2;
+            g.fillText(name, (A[0] + B[0]) / 2 + (28 * r + wide) * n[0],
                        (A[1] + B[1]) / 2 + 32 * r * n[1]);
         }
     }
