@@ -39,7 +39,7 @@ static const double DENSITY = 1.5;
 struct legend_words {
     int count;
     struct legend_entry entry[LEGEND_MAX];
-    char text[LEGEND_MAX][96];
+    char text[LEGEND_MAX][112];
 };
 
 /* Where everything is, in points. */
@@ -162,12 +162,29 @@ static void lay_out(const struct album *album, const struct picture *picture, do
     }
 }
 
-/* How heavy and fast the heaviest fragments are. */
-static void name_fragments(const struct frame *frame, struct legend_words *words)
+/* MASS of what is computed: "1.4 mg", of a plane case a metre of it. */
+static void mass_text(const struct album *album, double mass, char *buffer, size_t size)
+{
+    static const char *const units[] = {"kg", "g", "mg", "µg"};
+    const bool round = album->dimension == 2 && album->input->geometry == GEOMETRY_AXISYMMETRIC;
+    double shown = round ? 2.0 * acos(-1.0) * mass : mass;
+    size_t k = 0;
+    while (shown < 1.0 && k + 1 < COUNT_OF(units)) {
+        shown *= 1e3;
+        k++;
+    }
+    snprintf(buffer, size, "%.3g %s%s", shown, units[k],
+             album->dimension == 2 && !round ? "/m" : "");
+}
+
+/* How heavy and fast the heaviest fragments of FRAME are; where it is NULL, as wide a text as there
+ * may be: the page of all frames has room for it. */
+static void name_fragments(const struct album *album, const struct frame *frame,
+                           struct legend_words *words)
 {
     double mass[FRAGMENTS_NAMED + 1] = {0.0}, momentum[FRAGMENTS_NAMED + 1][3] = {{0.0}};
     static const char *const components[] = {"velocity.x", "velocity.y", "velocity.z"};
-    for (int g = 0; g < frame->groups; g++) {
+    for (int g = 0; frame && g < frame->groups; g++) {
         const struct frame_group *group = &frame->group[g];
         const struct frame_field *number = frame_field(group, "fragment");
         for (int64_t i = 0; number && i < group->count; i++) {
@@ -183,17 +200,20 @@ static void name_fragments(const struct frame *frame, struct legend_words *words
     }
     const struct colouring colouring = {.fragments = true};
     for (int n = 0; n <= FRAGMENTS_NAMED; n++) {
-        char speed[UNIT_TEXT];
+        char speed[UNIT_TEXT], heavy[24];
         const double size =
             sqrt(square(momentum[n][0]) + square(momentum[n][1]) + square(momentum[n][2]));
         multiple_text(mass[n] > 0.0 ? size / mass[n] : 0.0, "m/s", speed, sizeof speed);
         char *text = words->text[words->count];
+        mass_text(album, mass[n], heavy, sizeof heavy);
+        if (n && frame && !(mass[n] > 0.0))
+            continue;
         if (n == 0)
             snprintf(text, sizeof words->text[0], "dust");
-        else if (mass[n] > 0.0)
-            snprintf(text, sizeof words->text[0], "%d: %.3g kg, %s", n, mass[n], speed);
+        else if (frame)
+            snprintf(text, sizeof words->text[0], "%d: %s, %s", n, heavy, speed);
         else
-            snprintf(text, sizeof words->text[0], "%d: —", n);
+            snprintf(text, sizeof words->text[0], "8: 8.88 mg/m, 888.8 m/s");
         words->entry[words->count++] =
             (struct legend_entry){MARK_SQUARE, colouring_of(&colouring, n), text};
     }
@@ -219,6 +239,7 @@ static void name_categories(const struct album *album, const struct picture *pic
     }
 }
 
+/* FRAME: NULL: of none, as wide as of any. */
 static void find_legend(const struct album *album, const struct picture *picture,
                         const struct frame *frame, struct legend_words *words)
 {
@@ -226,7 +247,7 @@ static void find_legend(const struct album *album, const struct picture *picture
     for (int k = 0; k < picture->panels; k++) {
         const struct panel *panel = &picture->panel[k];
         if (panel->fragments)
-            name_fragments(frame, words);
+            name_fragments(album, frame, words);
         else if (panel->category)
             name_categories(album, picture, panel, words);
         if (panel->category)
@@ -432,8 +453,9 @@ struct error *sheet_draw(const struct album *album, const struct picture *pictur
     struct canvas canvas;
     char note[256];
     int64_t outside = 0;
-    find_legend(album, picture, frame, &words);
+    find_legend(album, picture, NULL, &words);
     TRY(lay_all(album, picture, &words, &sheet));
+    find_legend(album, picture, frame, &words);
     struct error *error = canvas_create(sheet.width, sheet.height, sheet.density, &canvas);
     for (int k = 0; k < picture->panels && !error; k++)
         error = draw_panel(&canvas, album, picture, k, frame, &sheet, &outside);
