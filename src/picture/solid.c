@@ -1,71 +1,15 @@
-/* Perspectives: spheres with a z-buffer, smoothed to surfaces, with light, ambient occlusion (how
- * much of the surroundings is in front) and outlines. Where a corner is cut away, rays start at the
- * cut: its faces are flat and closed. Values are blended between the particles of a body. */
+/* Perspectives: spheres, and cells as cubes, with a z-buffer, smoothed to surfaces, with light,
+ * ambient occlusion (how much of the surroundings is in front) and outlines. Where a corner is cut
+ * away, rays start at the cut: its faces are flat and closed. Values are blended between the
+ * particles of a body, and between cells. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "picture/scene.h"
-#include "picture/vector.h"
+#include "picture/solid.h"
 
-/* Radii over diameters: of the spheres, and of the discs of a cut face, which close the corners
- * between them. */
-static const float SPHERE = 0.62f, DISC = 0.87f;
 static const float FAR = 1e30f;
-enum { SMOOTH_MAX = 40, SMOOTH_TAPS = 10 /* on each side */, OCCLUSION_SAMPLES = 24 };
-
-/* A sphere on the page: its middle and radius in pixels, its place before the eye in metres. */
-struct mark {
-    float x, y, radius, depth, metres;
-    struct vector place;
-};
-
-/* What a pixel shows. */
-struct sample {
-    float depth, smooth, value, weight;
-    int32_t item;    /* mark; -1: nothing */
-    signed char cut; /* the face of a cut; -1: a sphere */
-};
-
-struct drawing {
-    struct drawing_of of;
-    float size; /* of the window, m */
-    struct vector eye, away, right, top, light;
-    struct mark *mark;
-    struct row_bands bands;
-    struct sample *sample;
-    float *surface, *scratch;
-    float around[OCCLUSION_SAMPLES][2]; /* directions on the page, of one at most */
-};
-
-static const struct scene_item *item_of(const struct drawing *d, int32_t mark)
-{
-    return drawing_item(&d->of, mark);
-}
-
-/* The ray of pixel (x, y): where it starts, and its direction, of which a step of one goes one
- * metre away. */
-static struct vector ray_start(const struct drawing *d, float x, float y)
-{
-    if (!d->of.view->parallel)
-        return d->eye;
-    const float across = (x - (float)d->of.projection->x) / (float)d->of.projection->scale;
-    const float up = ((float)d->of.projection->y - y) / (float)d->of.projection->scale;
-    return plus(d->eye, plus(times(d->right, across), times(d->top, up)));
-}
-static struct vector ray_direction(const struct drawing *d, float x, float y)
-{
-    if (d->of.view->parallel)
-        return d->away;
-    const float across = (x - (float)d->of.projection->x) / (float)d->of.projection->scale;
-    const float up = ((float)d->of.projection->y - y) / (float)d->of.projection->scale;
-    return plus(d->away, plus(times(d->right, across), times(d->top, up)));
-}
-static struct vector place_of(const struct drawing *d, int x, int y, float depth)
-{
-    const float column = (float)x + 0.5f, row = (float)y + 0.5f;
-    return plus(ray_start(d, column, row), times(ray_direction(d, column, row), depth));
-}
+enum { SMOOTH_MAX = 40, SMOOTH_TAPS = 10 /* on each side */ };
 
 static struct span place_mark(void *context, int64_t number, const double at[3])
 {
@@ -81,67 +25,11 @@ static struct span place_mark(void *context, int64_t number, const double at[3])
     mark->metres = SPHERE * item_of(d, (int32_t)number)->diameter;
     mark->radius = (float)d->of.projection->scale * mark->metres;
     mark->radius /= view->parallel ? 1.0f : mark->depth;
-    const float reach = maximum(mark->radius * DISC / SPHERE, 0.5f * d->of.dot) + 1.0f;
+    const float widest = item_of(d, (int32_t)number)->cell ? BLEND : DISC;
+    const float reach = maximum(mark->radius * widest / SPHERE, 0.5f * d->of.dot) + 1.0f;
     const bool seen = before && mark->depth > 2.0f * mark->metres && mark->x + reach > 0.0f &&
                       mark->x - reach < (float)d->of.width;
     return seen ? (struct span){mark->y - reach, mark->y + reach} : (struct span){1.0f, 0.0f};
-}
-
-/* Where the ray of a pixel that is outside of a cut corner's material leaves the corner: how much
- * deeper, and through which face; -1: nowhere; -2: the place is not in the corner. */
-static int leave_corner(const struct drawing *d, struct vector place, struct vector ray,
-                        float *deeper)
-{
-    int face = -1;
-    *deeper = INFINITY;
-    for (int k = 0; k < d->of.view->cuts; k++) {
-        const struct half_space *cut = &d->of.view->cut[k];
-        const float at = (&place.x)[cut->axis], rate = (float)cut->sign * (&ray.x)[cut->axis];
-        const float inside = (float)cut->sign * at - (float)cut->offset;
-        if (inside <= 0.0f)
-            return -2;
-        if (rate < 0.0f && -inside / rate < *deeper) {
-            *deeper = -inside / rate;
-            face = k;
-        }
-    }
-    return face;
-}
-
-/* Where pixel (x, y) meets MARK: its depth, the squared distance from the middle in radii, and the
- * face of a cut that it lies on, or -1. */
-struct meeting {
-    float depth, distance;
-    signed char cut;
-};
-static bool meet(const struct drawing *d, const struct mark *mark, int x, int y,
-                 struct meeting *meeting)
-{
-    const float column = (float)x + 0.5f, row = (float)y + 0.5f;
-    const float radius = maximum(mark->radius, 0.5f * d->of.dot);
-    const float dx = (column - mark->x) / radius, dy = (row - mark->y) / radius;
-    const float distance = dx * dx + dy * dy, widest = DISC * DISC / (SPHERE * SPHERE);
-    if (distance >= (d->of.view->cuts ? widest : 1.0f))
-        return false;
-    *meeting = (struct meeting){mark->depth - mark->metres * sqrtf(maximum(1.0f - distance, 0.0f)),
-                                distance, -1};
-    if (!d->of.view->cuts)
-        return true;
-    const struct vector ray = ray_direction(d, column, row);
-    struct vector place = plus(ray_start(d, column, row), times(ray, meeting->depth));
-    float deeper;
-    const int face = leave_corner(d, place, ray, &deeper);
-    if (face == -2)
-        return distance < 1.0f;
-    if (face < 0)
-        return false;
-    place = plus(place, times(ray, deeper));
-    const struct vector off = minus(place, mark->place);
-    const float disc = mark->metres * DISC / SPHERE;
-    meeting->depth += deeper;
-    meeting->distance = dot(off, off) / (disc * disc);
-    meeting->cut = (signed char)face;
-    return meeting->distance < 1.0f;
 }
 
 /* The radius that is drawn, in pixels and in metres. */
@@ -154,9 +42,12 @@ static float drawn_metres(const struct drawing *d, const struct mark *mark)
     return mark->metres * drawn_radius(d, mark) / maximum(mark->radius, 1e-6f);
 }
 
-static struct pixel_box box_of(const struct drawing *d, const struct mark *mark, int band)
+static struct pixel_box box_of(const struct drawing *d, int32_t m, int band)
 {
-    const float widest = d->of.view->cuts ? DISC / SPHERE : 1.0f;
+    const struct mark *mark = &d->mark[m];
+    const float widest = item_of(d, m)->cell ? BLEND / SPHERE
+                         : d->of.view->cuts  ? DISC / SPHERE
+                                             : 1.0f;
     const float reach = drawn_radius(d, mark) * widest;
     return row_bands_box(mark->x, mark->y, reach, band, d->of.width, d->of.height);
 }
@@ -165,7 +56,7 @@ static struct pixel_box box_of(const struct drawing *d, const struct mark *mark,
 static bool is_nearer(const struct sample *sample, const struct meeting *meeting, float metres)
 {
     const float tie = 1e-4f * metres;
-    if (meeting->cut >= 0 && sample->cut == meeting->cut &&
+    if (meeting->face >= 0 && sample->face == meeting->face &&
         fabsf(meeting->depth - sample->depth) < tie)
         return meeting->distance < sample->value;
     return meeting->depth < sample->depth;
@@ -176,18 +67,20 @@ static void find_nearest(struct drawing *d, int band)
     for (int64_t k = d->bands.begin[band]; k < d->bands.begin[band + 1]; k++) {
         const int32_t m = d->bands.item[k];
         const struct mark *mark = &d->mark[m];
-        const struct pixel_box box = box_of(d, mark, band);
+        const struct pixel_box box = box_of(d, m, band);
+        const bool cell = item_of(d, m)->cell;
         for (int y = box.top; y <= box.bottom; y++)
             for (int x = box.left; x <= box.right; x++) {
                 struct sample *sample = &d->sample[(int64_t)y * d->of.width + x];
                 struct meeting meeting;
-                if (mark->depth - mark->metres > sample->depth && !d->of.view->cuts)
+                if (mark->depth - (cell ? 1.4f : 1.0f) * mark->metres > sample->depth)
                     continue;
-                if (meet(d, mark, x, y, &meeting) && is_nearer(sample, &meeting, mark->metres))
+                if ((cell ? meet_cell : meet)(d, mark, x, y, &meeting) &&
+                    is_nearer(sample, &meeting, mark->metres))
                     *sample = (struct sample){.depth = meeting.depth,
                                               .value = meeting.distance,
                                               .item = m,
-                                              .cut = meeting.cut};
+                                              .face = meeting.face};
             }
     }
 }
@@ -201,7 +94,7 @@ static void blend(struct drawing *d, int band)
         const int32_t m = d->bands.item[k];
         const struct mark *mark = &d->mark[m];
         const struct scene_item *item = item_of(d, m);
-        const struct pixel_box box = box_of(d, mark, band);
+        const struct pixel_box box = box_of(d, m, band);
         if (isnan(item->value))
             continue;
         for (int y = box.top; y <= box.bottom; y++)
@@ -209,10 +102,16 @@ static void blend(struct drawing *d, int band)
                 struct sample *sample = &d->sample[(int64_t)y * d->of.width + x];
                 struct meeting meeting;
                 if (sample->item < 0 || item_of(d, sample->item)->body != item->body ||
-                    mark->depth - 2.0f * mark->metres > sample->depth ||
-                    !meet(d, mark, x, y, &meeting) ||
-                    meeting.depth >
-                        sample->depth + (meeting.cut >= 0 ? 1e-3f : 0.6f) * mark->metres)
+                    item_of(d, sample->item)->cell != item->cell ||
+                    mark->depth - 2.0f * mark->metres > sample->depth)
+                    continue;
+                if (item->cell) {
+                    meeting.distance = cell_distance(mark, place_of(d, x, y, sample->depth));
+                    if (meeting.distance >= 1.0f)
+                        continue;
+                } else if (!meet(d, mark, x, y, &meeting) ||
+                           meeting.depth >
+                               sample->depth + (meeting.face >= 0 ? 1e-3f : 0.6f) * mark->metres)
                     continue;
                 const float near = maximum(1.0f - meeting.distance, 0.0f);
                 const float weight = near * near + 1e-4f;
@@ -234,7 +133,7 @@ static const struct sample *sample_at(const struct drawing *d, int x, int y)
     return inside ? &d->sample[(int64_t)y * d->of.width + x] : NULL;
 }
 
-static bool is_sphere(const struct sample *sample) { return sample->item >= 0 && sample->cut < 0; }
+static bool is_sphere(const struct sample *sample) { return sample->item >= 0 && sample->face < 0; }
 
 /* The depth of row or column neighbours, averaged where they belong to the same surface: SURFACE
  * has the depths of spheres, and FAR elsewhere. */
@@ -307,8 +206,14 @@ static struct vector slope_at(const struct drawing *d, int x, int y, bool down)
 static struct vector normal_at(const struct drawing *d, int x, int y)
 {
     const struct sample *sample = &d->sample[(int64_t)y * d->of.width + x];
-    if (sample->cut >= 0) {
-        const struct half_space *cut = &d->of.view->cut[(int)sample->cut];
+    if (sample->face >= 0) {
+        const int cell = sample->face - FACES;
+        if (cell >= 0) {
+            const struct vector axes[3] = {
+                {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
+            return times(axes[cell / 2], cell % 2 ? 1.0f : -1.0f);
+        }
+        const struct half_space *cut = &d->of.view->cut[(int)sample->face];
         struct vector normal = {0.0f, 0.0f, 0.0f};
         (&normal.x)[cut->axis] = (float)cut->sign;
         return normal;
@@ -393,7 +298,7 @@ static bool is_lone_dot(const struct drawing *d, int x, int y)
     const struct mark *mark = &d->mark[sample->item];
     const int off = 1 + (int)ceilf(d->of.dot);
     int alone = 0;
-    if (mark->radius > 0.5f * d->of.dot || sample->cut >= 0)
+    if (mark->radius > 0.5f * d->of.dot || sample->face >= 0)
         return false;
     for (int k = 0; k < 4; k++) {
         const struct sample *other = sample_at(d, x + off * step[k][0], y + off * step[k][1]);
@@ -415,7 +320,9 @@ static void paint(const struct drawing *d, int y, struct raster *raster)
             continue;
         }
         const struct vector normal = normal_at(d, x, y);
-        const float lit = 0.42f + 0.58f * maximum(dot(normal, d->light), 0.0f);
+        /* flat faces show values: all have light enough for these to be read */
+        const float ambient = sample->face >= 0 ? 0.76f : 0.42f;
+        const float lit = ambient + (1.0f - ambient) * maximum(dot(normal, d->light), 0.0f);
         const float dark = minimum(1.6f * occlusion_at(d, x, y, normal), 0.75f);
         const float line = 1.0f - 0.6f * outline_at(d, x, y);
         raster->pixel[p] = pixel_of(colouring_of(d->of.colouring, sample->value),
@@ -438,7 +345,7 @@ static struct error *allocate(struct drawing *d)
     if (!d->sample || !d->surface || !d->scratch)
         return out_of_memory_for("a picture");
     for (size_t p = 0; p < pixels; p++)
-        d->sample[p] = (struct sample){.depth = INFINITY, .item = -1, .cut = -1};
+        d->sample[p] = (struct sample){.depth = INFINITY, .item = -1, .face = -1};
     d->mark = memory_allocate(
         (size_t)(view_images(d->of.view) * d->of.scene->count) * sizeof *d->mark + 1);
     return d->mark ? row_bands_make(&d->of, place_mark, d, &d->bands)

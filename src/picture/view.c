@@ -294,14 +294,29 @@ static void find_directions(const struct picture_input *input, const struct bodi
     view->up_sign = sign;
 }
 
+static void put_cut(struct view *view, int axis, double sign, double at)
+{
+    if (view->cuts < 3)
+        view->cut[view->cuts++] = (struct half_space){axis, sign, sign * at};
+}
+
 /* "+x": everything on the positive side of the plane of symmetry, or of the middle. */
 static void add_cut(struct view *view, int axis, double sign)
 {
     const double middle = view->mirrored[axis]
                               ? view->mirror_at[axis]
                               : 0.5 * (view->window[axis].low + view->window[axis].high);
-    if (view->cuts < 3)
-        view->cut[view->cuts++] = (struct half_space){axis, sign, sign * middle};
+    put_cut(view, axis, sign, middle);
+}
+
+/* Whether a gas has one wall across AXIS, at the side away from the eye, to which SIGN points: a
+ * ground, or a plane of symmetry of a blast. What happens there is most of the event. */
+static bool has_wall(const struct album *album, int axis, double sign, double *at)
+{
+    const struct face *face = album->place.face[axis];
+    const int away = sign > 0.0 ? 0 : 1;
+    *at = face[away].at;
+    return face_closes(&face[away]) && !face_closes(&face[1 - away]);
 }
 
 static struct error *find_cuts(const struct album *album, const struct picture_input *input,
@@ -318,9 +333,14 @@ static struct error *find_cuts(const struct album *album, const struct picture_i
     }
     if (input->cut.count)
         return NULL;
-    for (int axis = 0; axis < 3; axis++)
-        if (view->mirrored[axis] || (album->gas_alone && axis != view->up))
-            add_cut(view, axis, view->direction[axis] > 0.0 ? 1.0 : -1.0);
+    for (int axis = 0; axis < 3; axis++) {
+        const double sign = view->direction[axis] > 0.0 ? 1.0 : -1.0;
+        double wall;
+        if (!view->mirrored[axis] && album->gas_alone && has_wall(album, axis, sign, &wall))
+            put_cut(view, axis, sign, wall + sign * 0.5 * view->diameter);
+        else if (view->mirrored[axis] || (album->gas_alone && axis != view->up))
+            add_cut(view, axis, sign);
+    }
     return NULL;
 }
 

@@ -538,6 +538,119 @@ static void the_title_is_above_a_narrow_picture(void **state)
     frame_free(&frame);
 }
 
+/* However long the legend of a frame's fragments is. */
+static void frames_of_fragments_have_one_size(void **state)
+{
+    (void)state;
+    char *names[] = {"fragment"};
+    struct picture_input pictures[1];
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        struct simulation_case input = case_of(dimension, names, 1, pictures);
+        int height[3] = {0};
+        for (int pieces = 0; pieces < 3; pieces++) {
+            struct frame frame = lattice(10, 5, dimension == 3 ? 5 : 1);
+            struct frame_group *group = &frame.group[0];
+            snprintf(group->field[0].name, sizeof group->field[0].name, "fragment");
+            for (int64_t i = 0; i < group->count; i++) {
+                group->field[0].value[i] = (float)(i % (3 * pieces + 1));
+                group->mass[i] = pieces == 2 ? 1.2345e-7f : 1e-3f;
+            }
+            struct album *album = album_of(&input, 1, &frame, &frame);
+            cairo_surface_t *surface = draw_surface(album, 0, &frame);
+            height[pieces] = cairo_image_surface_get_height(surface);
+            cairo_surface_destroy(surface);
+            album_free(album);
+            frame_free(&frame);
+        }
+        assert_true(height[0] == height[1] && height[1] == height[2]);
+    }
+}
+
+/* But for rounding. */
+static bool is_close(uint32_t a, uint32_t b)
+{
+    bool close = true;
+    for (int shift = 0; shift < 24; shift += 8)
+        close &= abs((int)(a >> shift & 255) - (int)(b >> shift & 255)) <= 2;
+    return close;
+}
+
+/* Cells in 3-D are cubes: each face of a box of them is flat, in one colour where its field is. */
+static void cells_fill_flat_faces(void **state)
+{
+    (void)state;
+    char *names[] = {"pressure"};
+    struct picture_input pictures[1];
+    struct simulation_case input = case_of(3, names, 1, pictures);
+    struct frame frame = lattice(9, 7, 8);
+    uint32_t colour[256] = {0};
+    int times[256] = {0}, colours = 0, all = 0, most[3] = {0};
+    frame.group[0].cell_dimension = 3;
+    frame.group[0].edge = 1e-3;
+    for (int64_t i = 0; i < frame.group[0].count; i++)
+        frame.group[0].field[0].value[i] = 1e9f;
+    struct album *album = album_of(&input, 2, &frame, &frame);
+    cairo_surface_t *surface = draw_surface(album, 0, &frame);
+    const int height = cairo_image_surface_get_height(surface);
+    for (int row = 100; row < height - 150; row++)
+        for (int column = 0; column < cairo_image_surface_get_width(surface); column++) {
+            const uint32_t seen = pixel(surface, column, row);
+            int k = 0;
+            if (abs((int)(seen >> 16) - (int)(seen & 255)) < 10)
+                continue; /* text and axes are grey */
+            while (k < colours && !is_close(colour[k], seen))
+                k++;
+            if (k == 256)
+                continue;
+            if (k == colours)
+                colour[colours++] = seen;
+            times[k]++;
+            all++;
+        }
+    for (int k = 0; k < colours; k++)
+        for (int m = 0; m < 3; m++)
+            if (times[k] > most[m]) {
+                const int last = most[m];
+                most[m] = times[k];
+                times[k] = last;
+            }
+    assert_true(all > 100000);
+    if (most[0] + most[1] + most[2] < 0.95 * all)
+        fail_msg("%d, %d and %d of %d pixels", most[0], most[1], most[2], all);
+    cairo_surface_destroy(surface);
+    album_free(album);
+    frame_free(&frame);
+}
+
+/* A gas with one wall across an axis is cut open at the wall, half a cell off it. */
+static void gas_is_cut_open_at_its_walls(void **state)
+{
+    (void)state;
+    char *names[] = {"pressure"};
+    struct picture_input pictures[1];
+    struct simulation_case input = case_of(3, names, 1, pictures);
+    struct frame frame = lattice(9, 7, 8);
+    struct album *album;
+    frame.group[0].cell_dimension = 3;
+    for (int walls = 0; walls < 2; walls++) {
+        assert_null(album_create(&input, 1, &album));
+        album->gas_alone = true;
+        for (int axis = 0; axis < 3 && walls; axis++)
+            album->place.face[axis][0] = (struct face){.kind = BOUNDARY_REFLECTING, .boundary = -1};
+        assert_null(album_begin(album, &frame, &frame));
+        const struct view *view = &album->picture[0].view;
+        assert_int_equal(view->cuts, walls ? 3 : 2);
+        for (int k = 0; k < view->cuts; k++)
+            assert_float_equal(view->cut[k].offset,
+                               walls    ? 0.5e-3
+                               : k == 0 ? 4.5e-3
+                                        : 3.5e-3,
+                               1e-6);
+        album_free(album);
+    }
+    frame_free(&frame);
+}
+
 /* The mean brightness of the coloured pixels of a slab of N x N x 2 particles,
  * seen obliquely. */
 static double brightness_of_slab(int n)
@@ -590,6 +703,9 @@ int main(void)
         cmocka_unit_test(outlines_do_not_end_where_particles_are_small),
         cmocka_unit_test(lone_dots_have_no_outlines),
         cmocka_unit_test(the_title_is_above_a_narrow_picture),
+        cmocka_unit_test(frames_of_fragments_have_one_size),
+        cmocka_unit_test(cells_fill_flat_faces),
+        cmocka_unit_test(gas_is_cut_open_at_its_walls),
         cmocka_unit_test(a_face_is_as_bright_of_small_particles),
         cmocka_unit_test(in_one_dimension_all_members_are_dots),
         cmocka_unit_test(any_input_is_drawn_on_a_page_of_sane_size),
