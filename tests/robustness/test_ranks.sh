@@ -63,6 +63,7 @@ on 2 run "$explosives" --output two >two.log 2>&1 || fail "2 ranks: $(cat two.lo
 same_but_for_order whole two || fail "$explosives on 2 ranks"
 for solver in mpm sph; do
     kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-failure.yaml" --set solver=$solver
+    kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-brittle.yaml" --set solver=$solver
 done
 # Bodies that touch after a while.
 apart=$BOLIDE_SOURCE_DIR/tests/data/apart.yaml

@@ -47,6 +47,15 @@ static struct strength_johnson_holmquist unlimited(void)
     return solid;
 }
 
+static const struct strength_failure_wave glass = {.shear_modulus = 23e9,
+                                                   .speed = 1600.0,
+                                                   .intact = 0.1e9,
+                                                   .intact_slope = 0.5,
+                                                   .failed = 0.05e9,
+                                                   .failed_slope = 0.2,
+                                                   .tip_pressure = 0.1e9,
+                                                   .tip_end = 0.07e9};
+
 static double some(struct dice *dice, double scale) { return dice_between(dice, -scale, scale); }
 
 /* A point and what happens to it; one in four does not flow. */
@@ -68,7 +77,8 @@ static void throw_point(struct dice *dice, double rest, struct point *point, str
     *motion = (struct motion){.dt = 1e-8,
                               .density = point->density * dice_between(dice, 0.99, 1.01),
                               .viscous_pressure = dice_between(dice, 0.0, 1e8),
-                              .spin = {some(dice, spin), some(dice, spin), some(dice, spin)}};
+                              .spin = {some(dice, spin), some(dice, spin), some(dice, spin)},
+                              .damage_gradient = dice_between(dice, 0.0, 1e4)};
     double *rate = &motion->strain_rate.xx;
     for (int c = 0; c < 6; c++)
         rate[c] = some(dice, 2e6 * size);
@@ -97,6 +107,7 @@ static void put(struct batch *b, int k, const struct point *point, const struct 
     b->acceleration[2][k] = motion->acceleration.z;
     b->length[k] = motion->length;
     b->bulking[k] = point->history[HISTORY_bulking];
+    b->damage_gradient[k] = motion->damage_gradient;
 }
 
 static void check(const struct batch *b, int k, const struct point *point,
@@ -135,7 +146,8 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
         {STRENGTH_johnson_cook, {.johnson_cook = explicitly(hard)}},
         {STRENGTH_johnson_cook, {.johnson_cook = explicitly(soft())}},
         {STRENGTH_johnson_holmquist, {.johnson_holmquist = brittle}},
-        {STRENGTH_johnson_holmquist, {.johnson_holmquist = unlimited()}}};
+        {STRENGTH_johnson_holmquist, {.johnson_holmquist = unlimited()}},
+        {STRENGTH_failure_wave, {.failure_wave = glass}}};
     const struct failure failures[] = {
         {.kind = FAILURE_NONE},
         {FAILURE_cavitation, {.cavitation = {.tension = 1e8}}},
@@ -186,7 +198,7 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
         assert_true(batch_takes(&material));
         for (int k = 0; k < batch.count; k++) {
             throw_point(&dice, material_density(&material), &point[k], &motion[k]);
-            if (material_breaks(&material)) {
+            if (material_breaks(&material) || strength_spreads(&material.strength)) {
                 const double damage = 0.5 * dice_below(&dice, 3);
                 point[k].history[HISTORY_damage] = damage;
                 point[k].history[HISTORY_void_ratio] = damage == 1.0 && material_opens(&material)
