@@ -122,7 +122,6 @@ void gas_count_air(struct gas *gas, const struct simulation *simulation)
     const struct cell_blocks *cells = gas->cells;
     const double volume = pow(cells->edge, cells->dimension), takes = gas->afterburn.air;
     struct exact_sum mass[2] = {{{0}, 0, false}, {{0}, 0, false}}; /* of air, of products */
-    gas->most_afterburnt = 1.0;
     if (!gas->layout.afterburns || !(takes > 0.0))
         return;
     for (int32_t i = 0; i < cells->count; i++) {

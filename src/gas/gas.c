@@ -127,6 +127,7 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     gas->layout.blocked = place_blocks_any(&simulation->problem->place);
     gas->afterburn = simulation->problem->material[gas->material[1]].afterburn;
     gas->layout.afterburns = gas->layout.two && gas->afterburn.energy > 0.0;
+    gas->most_afterburnt = 1.0;
     gas->layout.explosive = gas->layout.two ? gas->layout.explosive : 0;
     if (gas->layout.marked)
         gas_count_heat(gas);
