@@ -187,34 +187,49 @@ BOLIDE_INLINE struct johnson_holmquist_return johnson_holmquist_start(
     return at;
 }
 
-/* Returns a point whose Mises stress is beyond yield, in substeps. What the last one, of next to no
- * damage, leaves of the overstress is the next step's. */
+/* The plastic strain that takes STRESS down to YIELD, which falls with it, at the pressure of
+ * SURFACE; sets *WHOLE to false where that is too much for one substep. */
+BOLIDE_INLINE double johnson_holmquist_flow(const struct strength_johnson_holmquist *solid,
+                                            struct johnson_holmquist_surface surface, double damage,
+                                            double over, bool *whole)
+{
+    const double growth_of_substep = 0.005, modulus = 3.0 * solid->shear_modulus;
+    if (damage >= 1.0)
+        return over / modulus;
+    *whole = false;
+    if (!(surface.strain > 0.0))
+        return over / modulus;
+    const double most = minimum(growth_of_substep, 1.0 - damage) * surface.strain;
+    const double left = modulus * surface.strain - (surface.intact - surface.fractured);
+    *whole = over * surface.strain < most * left;
+    return *whole ? over * surface.strain / left : most;
+}
+
+/* Returns a point whose Mises stress is beyond yield, in substeps. After the last one the bulking
+ * has raised the pressure, and with it the strength: nothing is left to return. KNOWN is the
+ * surface at the start, or NULL. */
 BOLIDE_INLINE void johnson_holmquist_substeps(const struct strength_johnson_holmquist *solid,
+                                              const struct johnson_holmquist_surface *known,
                                               struct johnson_holmquist_return *at)
 {
-    const double most = 0.005, least = 1e-5, modulus = 3.0 * solid->shear_modulus;
     const double own = at->pressure - at->bulking; /* of the equation of state */
-    for (double growth = most; growth > least;) {
+    for (bool whole = false; !whole; known = NULL) {
         double pressure = own + at->bulking;
         if (solid->tension_limit)
             pressure = maximum(pressure, -solid->tension * (1.0 - at->damage));
         const struct johnson_holmquist_surface surface =
-            johnson_holmquist_surface(solid, pressure, at->haste);
+            known ? *known : johnson_holmquist_surface(solid, pressure, at->haste);
         const double yield = johnson_holmquist_stress(surface, at->damage);
         if (!(at->mises > yield))
             return;
-        double plastic = (at->mises - yield) / modulus;
-        if (at->damage >= 1.0) {
-            at->strain += plastic;
-            at->mises = yield;
-            return;
-        }
-        if (surface.strain > 0.0)
-            plastic = minimum(plastic, most * surface.strain);
-        growth = johnson_holmquist_damage(at->damage, plastic, surface.strain) - at->damage;
-        at->damage += growth;
+        whole = true;
+        const double plastic =
+            johnson_holmquist_flow(solid, surface, at->damage, at->mises - yield, &whole);
         at->strain += plastic;
-        at->mises -= modulus * plastic;
+        at->mises -= 3.0 * solid->shear_modulus * plastic;
+        if (at->damage >= 1.0)
+            return;
+        at->damage = johnson_holmquist_damage(at->damage, plastic, surface.strain);
         at->bulking = johnson_holmquist_bulking(solid, at->compression, at->bulking, yield,
                                                 johnson_holmquist_stress(surface, at->damage));
     }
@@ -266,19 +281,25 @@ BOLIDE_INLINE void johnson_holmquist_once(const struct strength_johnson_holmquis
     point->history[HISTORY_yield_before] = start;
 }
 
-/* A step on which failing goes on, in parts, the more the larger OVER, the overstress of its trial:
- * pressure and strain grow together, the pressure by MODULUS, until it has that of the step.
- * Returns the deviator. */
+/* The parts of a step on which failing goes on, the more the larger OVER, the overstress of its
+ * trial, at a failure STRAIN. */
+BOLIDE_INLINE int johnson_holmquist_parts(const struct strength_johnson_holmquist *solid,
+                                          double over, double strain)
+{
+    const double most = 8.0, growth_of_part = 0.005;
+    const double growth = over / (3.0 * solid->shear_modulus * growth_of_part);
+    return (int)(growth < most * strain ? growth / strain : most) + 1;
+}
+
+/* A step on which failing goes on, in PARTS: pressure and strain grow together, the pressure by
+ * MODULUS, until it has that of the step, where SURFACE is. Returns the deviator. */
 BOLIDE_INLINE struct sym3 johnson_holmquist_fail(const struct strength_johnson_holmquist *solid,
                                                  const struct motion *motion, double modulus,
-                                                 double over, struct sym3 deviator,
-                                                 struct sym3 trial,
+                                                 int parts,
+                                                 struct johnson_holmquist_surface surface,
+                                                 struct sym3 deviator, struct sym3 trial,
                                                  struct johnson_holmquist_return *at)
 {
-    const double most = 8.0, growth_of_part = 0.0025;
-    const double strain = johnson_holmquist_surface(solid, at->pressure, at->haste).strain;
-    const double growth = over / (3.0 * solid->shear_modulus * growth_of_part);
-    const int parts = (int)(growth < most * strain ? growth / strain : most) + 1;
     const double compression = at->compression, own = at->pressure - at->bulking;
     const double change = -motion->dt * sym3_trace(motion->strain_rate) / parts;
     const struct sym3 shear = sym3_scale(1.0 / parts, sym3_add(trial, sym3_scale(-1.0, deviator)));
@@ -288,7 +309,7 @@ BOLIDE_INLINE struct sym3 johnson_holmquist_fail(const struct strength_johnson_h
         at->mises = mises;
         at->compression = compression - left * change * (1.0 + compression);
         at->pressure = own - left * change * modulus + at->bulking;
-        johnson_holmquist_substeps(solid, at);
+        johnson_holmquist_substeps(solid, parts == 1 ? &surface : NULL, at);
         if (at->mises < mises)
             deviator = sym3_scale(at->mises / mises, deviator);
     }
@@ -306,10 +327,13 @@ BOLIDE_INLINE void strength_johnson_holmquist(const struct strength_johnson_holm
     struct johnson_holmquist_return at = johnson_holmquist_start(solid, motion, point, mises);
     struct sym3 s = trial;
     if (solid->order == JOHNSON_HOLMQUIST_SUBSTEP) {
-        const double yield = johnson_holmquist_strength(solid, at.pressure, at.damage, at.haste);
+        const struct johnson_holmquist_surface surface =
+            johnson_holmquist_surface(solid, at.pressure, at.haste);
+        const double yield = johnson_holmquist_stress(surface, at.damage);
         const bool flows = mises - yield > johnson_holmquist_noise(solid);
         if (flows && at.damage < 1.0) {
-            s = johnson_holmquist_fail(solid, motion, bulk_modulus, mises - yield, point->deviator,
+            const int parts = johnson_holmquist_parts(solid, mises - yield, surface.strain);
+            s = johnson_holmquist_fail(solid, motion, bulk_modulus, parts, surface, point->deviator,
                                        trial, &at);
         } else if (flows) {
             at.strain += (mises - yield) / (3.0 * solid->shear_modulus);
