@@ -6,7 +6,7 @@
  *
  * With m = n = 0 the rate is constant. Source: P. J. Miller, Mater. Res. Soc. Symp. Proc. 418
  * (1996) 413. The second stage, with the heat Q_s, begins when the first has ended in a place. It
- * stands for the slow mixing with the air of a room:
+ * represents the slow mixing with the air of a room:
  *
  *   dl/dt = a_s (1 - l)
  *
