@@ -49,19 +49,22 @@ void canvas_destroy(struct canvas *canvas)
 struct png_image canvas_image(cairo_surface_t *surface)
 {
     cairo_surface_flush(surface);
-    return (struct png_image){
-        cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface),
-        (size_t)cairo_image_surface_get_stride(surface), cairo_image_surface_get_data(surface)};
+    return (struct png_image){cairo_image_surface_get_width(surface),
+                              cairo_image_surface_get_height(surface),
+                              (size_t)cairo_image_surface_get_stride(surface),
+                              cairo_image_surface_get_data(surface), false};
 }
 
-struct error *canvas_publish(const struct canvas *canvas, const char *path, bool own_folder)
+struct error *canvas_publish(const struct canvas *canvas, const char *path, bool own_folder,
+                             bool flat)
 {
     char *beside;
     if (own_folder)
         TRY(file_check_folder(path));
     TRY(file_clear_beside(path, &beside));
     const cairo_status_t status = cairo_status(canvas->pen);
-    const struct png_image image = canvas_image(canvas->surface);
+    struct png_image image = canvas_image(canvas->surface);
+    image.flat = flat;
     const bool drawn = status == CAIRO_STATUS_SUCCESS;
     struct error *error = NULL;
     if (drawn && png_write(beside, &image)) {

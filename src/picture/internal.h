@@ -23,8 +23,10 @@ struct canvas {
 struct error *canvas_create(double width, double height, double density, struct canvas *canvas);
 void canvas_destroy(struct canvas *canvas);
 
-/* Writes the picture to PATH as PNG; OWN_FOLDER: in a folder of the run, which is no link. */
-struct error *canvas_publish(const struct canvas *canvas, const char *path, bool own_folder);
+/* Writes the picture to PATH as PNG; OWN_FOLDER: in a folder of the run, which is no link. FLAT:
+ * of lines and text, see struct png_image. */
+struct error *canvas_publish(const struct canvas *canvas, const char *path, bool own_folder,
+                             bool flat);
 
 /* The pixels of SURFACE, which is RGB24, with what has been drawn. */
 struct png_image canvas_image(cairo_surface_t *surface);

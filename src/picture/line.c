@@ -43,6 +43,7 @@ struct error *line_draw(const struct album *album, const struct picture *picture
                               .series = &series,
                               .note = note,
                               .own_folder = true,
+                              .frame = true,
                               .x_low = picture->view.window[0].low,
                               .x_high = picture->view.window[0].high,
                               .y_low = all.low,

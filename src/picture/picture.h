@@ -28,6 +28,7 @@ struct plot {
     double x_low, x_high; /* fix an axis; equal: the series' own range */
     double y_low, y_high;
     bool own_folder; /* it goes into a folder of the run: refused where that is a link */
+    bool frame;      /* of a film, whose frames have their colours as numbers, not by a palette */
 };
 
 struct error *picture_plot(const char *path, const struct plot *plot);

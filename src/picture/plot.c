@@ -271,7 +271,7 @@ struct error *picture_plot(const char *path, const struct plot *plot)
     if (!error)
         error = draw_plot(&canvas, plot);
     if (!error)
-        error = canvas_publish(&canvas, path, plot->own_folder);
+        error = canvas_publish(&canvas, path, plot->own_folder, !plot->frame);
     canvas_destroy(&canvas);
     return error;
 }

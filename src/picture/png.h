@@ -7,11 +7,13 @@
 #include <stdio.h>
 
 /* Rows of pixels 0xRRGGBB from the top, as CAIRO_FORMAT_RGB24 has them on machines of little
- * endian: the upper byte is unused, and rows are STRIDE bytes apart. */
+ * endian: the upper byte is unused, and rows are STRIDE bytes apart. A flat image, of lines and
+ * text, becomes one of a palette, where shades at edges may be off by 7 of 255. */
 struct png_image {
     int width, height;
     size_t stride;
     const unsigned char *data;
+    bool flat;
 };
 
 /* Writes the file PATH, or to FILE; on failure errno says why. */

@@ -469,7 +469,7 @@ struct error *sheet_draw(const struct album *album, const struct picture *pictur
                         (struct text_place){0.5 * sheet.width, sheet.head + 0.5 * sheet.box_height,
                                             0.5, sheet.width},
                         "no particles");
-        error = canvas_publish(&canvas, path, true);
+        error = canvas_publish(&canvas, path, true, false);
     }
     canvas_destroy(&canvas);
     return error;
