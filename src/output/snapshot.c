@@ -192,14 +192,17 @@ static void write_names(struct writing *w, const char *dataset, const struct nam
     if (!w->here || w->error || names->count == 0)
         return;
     hid_t type = H5Tcopy(H5T_C_S1), creation = hdf5_creation_list(H5P_DATASET_CREATE);
+    hid_t transfer = H5Pcreate(H5P_DATASET_XFER);
     H5Tset_size(type, H5T_VARIABLE);
+    H5Pset_buffer(transfer, 4096, NULL, NULL); /* HDF5's own are two of 1 MiB, zeroed each time */
     hid_t space = H5Screate_simple(1, (const hsize_t[]){(hsize_t)names->count}, NULL);
     hid_t set = H5Dcreate2(w->group, dataset, type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
-    if (set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, names->names) < 0)
+    if (set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, transfer, names->names) < 0)
         w->error = hdf5_error(ERROR_SYSTEM, "\"%s\" cannot be written", dataset);
     if (set >= 0)
         H5Dclose(set);
     H5Sclose(space);
+    H5Pclose(transfer);
     H5Pclose(creation);
     H5Tclose(type);
 }

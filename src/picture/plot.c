@@ -136,7 +136,7 @@ static void draw_line(const struct canvas *canvas, const struct axis *x, const s
     cairo_stroke(canvas->pen);
 }
 
-/* Draws each dot that would not lie on another one of the series: TAKEN has a byte for every
+/* Draws each dot that would not lie on another one of the series: TAKEN has a bit for every
  * pixel. */
 static void draw_dots(const struct canvas *canvas, const struct axis *x, const struct axis *y,
                       const struct series *series, uint8_t *taken)
@@ -151,10 +151,11 @@ static void draw_dots(const struct canvas *canvas, const struct axis *x, const s
         double column = floor(at_x * PIXELS_PER_POINT), row = floor(at_y * PIXELS_PER_POINT);
         if (!(column >= 0.0 && column < columns && row >= 0.0 && row < rows))
             continue;
-        uint8_t *pixel = &taken[(int64_t)row * columns + (int64_t)column];
-        if (*pixel)
+        const int64_t pixel = (int64_t)row * columns + (int64_t)column;
+        const uint8_t bit = (uint8_t)(1 << pixel % 8);
+        if (taken[pixel / 8] & bit)
             continue;
-        *pixel = 1;
+        taken[pixel / 8] |= bit;
         cairo_new_path(canvas->pen);
         cairo_arc(canvas->pen, at_x, at_y, radius, 0.0, 4.0 * acos(0.0));
         cairo_fill(canvas->pen);
@@ -209,7 +210,7 @@ static struct error *draw_series(const struct canvas *canvas, const struct plot 
                                                    : 1.6);
         if (series->line != LINE_NONE && series->line != LINE_MARKED)
             continue;
-        uint8_t *taken = memory_allocate(pixels);
+        uint8_t *taken = memory_allocate(pixels / 8 + 1);
         if (taken)
             draw_dots(canvas, x, y, series, taken);
         else
