@@ -156,6 +156,7 @@ static struct error *read_all(struct simulation_case *input, const char *path,
 {
     TRY(read_document(input, options));
     TRY(case_read_start(input, path, options));
+    TRY(case_read_records(input, path, options));
     return options->recording || options->convergence ? NULL : case_take_record(input, path);
 }
 
@@ -212,6 +213,8 @@ void case_free(struct simulation_case *input)
         return;
     for (int i = 0; i < input->materials.count; i++)
         free(case_material(input, i)->material);
+    for (int i = 0; i < input->loads.count; i++)
+        case_free(case_load(input, i)->record.input);
     parameters_release(case_table, input);
     case_free(input->start.input);
     sweep_values_free(input->sweep, input->sweep_values);

@@ -115,10 +115,19 @@ struct blast_input {
     double time;            /* s, of the detonation */
 };
 
+/* {from: gas.yaml, probe: wall}: the pressure that another case records on a line pushes. */
+struct record_input {
+    char *from, *probe;            /* NULL: not given */
+    struct vector_value center;    /* count 0: the origin */
+    double time, ambient;          /* s, Pa; NAN: the pressure of each point at the start */
+    struct simulation_case *input; /* filled by case_read: that case; owned */
+};
+
 /* loads: NAME: {on: bar, pressure: 1 MPa}: what pushes on the surface of a body. */
 struct load_input {
     char *on;
     struct blast_input blast;
+    struct record_input record;
     struct field_value pressure; /* of the time */
     /* of the time, on the surface that looks to `side` of `axis`; count 0: not given */
     struct field_list traction;
@@ -359,6 +368,7 @@ struct case_options {
     int sweep_run;    /* the run of the case's sweep, from 1; 0: the case itself */
     bool recording;   /* the record is being made: nothing is read from it */
     bool convergence; /* the runs of its convergence study take the place of those of its sweep */
+    bool source;      /* another case is computed with it first: it must not ask for more */
     const char *const *library_paths; /* folders with material files */
     int library_count;
 };

@@ -39,6 +39,17 @@ static void check_blast(struct checking *checking, const struct load_input *load
                    low, high, nearest, farthest);
 }
 
+static void check_record(struct checking *checking, const struct load_input *load)
+{
+    if (!load->record.from || !load->record.probe)
+        case_wrong(checking, "record", "this needs `from`, the case, and `probe`, its line");
+    else if (load->side < 0)
+        case_wrong(checking, "record",
+                   "this needs `side`: the pressure acts on one face of the body, not all around");
+    if (load->record.center.count)
+        case_check_components(checking, "record.center", load->record.center.count);
+}
+
 void case_check_load(struct checking *checking, int index)
 {
     const struct simulation_case *input = checking->input;
@@ -61,10 +72,13 @@ void case_check_load(struct checking *checking, int index)
     if (case_is_wrong(checking, ""))
         return;
     const bool blast = !isnan(load->blast.mass) || load->blast.at.count > 0;
-    if (field_is_given(&load->pressure) + (load->traction.count > 0) + blast != 1)
-        case_wrong(checking, "", "give one of `pressure`, `traction` and `blast`");
+    const bool record = load->record.from || load->record.probe;
+    if (field_is_given(&load->pressure) + (load->traction.count > 0) + blast + record != 1)
+        case_wrong(checking, "", "give one of `pressure`, `traction`, `blast` and `record`");
     else if (blast)
         check_blast(checking, load);
+    else if (record)
+        check_record(checking, load);
     else if (load->traction.count && load->between.count == 0)
         case_wrong(
             checking, "traction",

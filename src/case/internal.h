@@ -110,5 +110,8 @@ struct error *case_take_record(struct simulation_case *input, const char *path);
 /* Reads the case that `start` names, if any, from the folder of the case at PATH. */
 struct error *case_read_start(struct simulation_case *input, const char *path,
                               const struct case_options *options);
+/* Reads the cases that the records of loads name. */
+struct error *case_read_records(struct simulation_case *input, const char *path,
+                                const struct case_options *options);
 
 #endif

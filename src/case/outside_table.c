@@ -16,17 +16,41 @@ static const struct parameter blast_table[] = {
     PARAMETER_END,
 };
 
+static const struct parameter record_table[] = {
+    PARAMETER(TEXT, struct record_input, from, OPTIONAL,
+              "a case of the solver gas, or the folder of one, from this file's folder; it is "
+              "computed before this run begins",
+              .is_path = true),
+    PARAMETER(TEXT, struct record_input, probe, OPTIONAL,
+              "a probe `line` of that case, with the pressure on the target, which is rigid there"),
+    PARAMETER(VECTOR, struct record_input, center, OPTIONAL,
+              "where the first point of the line lies here; default: the origin. The pressure at a "
+              "place is that at its distance from the line along `axis` through this point",
+              .unit = "m"),
+    PARAMETER(NUMBER, struct record_input, time, "0 s",
+              "time of this run at which that case begins", .unit = "s"),
+    PARAMETER(NUMBER, struct record_input, ambient, OPTIONAL,
+              "what is subtracted from the pressure, as it acts on the other side too; default: "
+              "the pressure of each point at the start",
+              .unit = "Pa"),
+    PARAMETER_END,
+};
+
 const struct parameter case_load_table[] = {
     PARAMETER(TEXT, struct load_input, on, REQUIRED, "the body"),
     PARAMETER(FIELD, struct load_input, pressure, OPTIONAL,
               "pressure on its surface, a number or an expression of the time; give this, a "
-              "traction or a blast",
+              "traction, a blast or a record",
               .arguments = ARGUMENT_TIME, .unit = "Pa"),
     PARAMETER(TABLE, struct load_input, blast, OPTIONAL,
               "overpressure by the curves of Kingery and Bulmash on the surface that faces a "
               "charge, in the positive phase; it follows the body. `between` and `side` leave out "
               "what is elsewhere, or faces elsewhere, at the start",
               .table = blast_table),
+    PARAMETER(TABLE, struct load_input, record, OPTIONAL,
+              "the pressure over place and time that another case records, on the surface that "
+              "faces `side` along `axis` at the start; it follows the body",
+              .table = record_table),
     PARAMETER(FIELDS, struct load_input, traction, OPTIONAL,
               "force per area on the surface that faces `side` along `axis`, one value per "
               "dimension, numbers or expressions of the time",
@@ -38,8 +62,8 @@ const struct parameter case_load_table[] = {
               "for a traction, any for a blast",
               .names = parameter_sides),
     PARAMETER(VECTOR, struct load_input, between, OPTIONAL,
-              "two positions on the axis that bound the surface: of a blast at the start, else at "
-              "any time; default: all of it",
+              "two positions on the axis that bound the surface: of a blast or a record at the "
+              "start, else at any time; default: all of it",
               .unit = "m"),
     PARAMETER(NUMBER, struct load_input, after, "0 s", "time at which the load starts", .unit = "s",
               .below = INFINITY, .closed = true),

@@ -1,4 +1,5 @@
-/* `start: {from: FILE}`: its keys, and the case that FILE holds. */
+/* Cases that are computed before another one begins: `start: {from: FILE}`, its keys and the case
+ * that FILE holds, and those that give the records of loads. */
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -95,6 +96,7 @@ struct error *case_read_start(struct simulation_case *input, const char *path,
 {
     struct start_input *start = &input->start;
     struct case_options plain = {.recording = true,
+                                 .source = true,
                                  .library_paths = options->library_paths,
                                  .library_count = options->library_count};
     if (!start->from)
@@ -119,6 +121,51 @@ struct error *case_read_start(struct simulation_case *input, const char *path,
     }
     free(chain);
     free(file);
+    return error;
+}
+
+/* Reads the case of the record of the load at INDEX, and looks at its probe. */
+static struct error *read_record(struct simulation_case *input, int index, const char *path,
+                                 const struct case_options *options)
+{
+    struct record_input *record = &case_load(input, index)->record;
+    const struct case_options plain = {.recording = true,
+                                       .source = true,
+                                       .library_paths = options->library_paths,
+                                       .library_count = options->library_count};
+    struct checking checking = {.input = input, .map = "loads", .name = input->loads.names[index]};
+    if (options->source) {
+        case_wrong(&checking, "record",
+                   "this case is computed for another one, and must not need a third");
+        return checking.error;
+    }
+    char *file = path_of(path, record->from);
+    if (!file)
+        return out_of_memory();
+    if (access(file, R_OK) == 0) {
+        struct error *error = case_read(file, &plain, input->catalogue, &record->input);
+        free(file);
+        TRY(error);
+    } else {
+        free(file);
+        case_wrong(&checking, "record.from", "there is no case \"%s\"", record->from);
+        return checking.error;
+    }
+    const int probe =
+        case_find_name(&checking, &record->input->probes, "probe", record->probe, "record.probe");
+    if (probe >= 0 && strcmp(case_probe(record->input, probe)->probe.choice->name, "line") != 0)
+        case_wrong(&checking, "record.probe", "this is a `%s`; a record comes from a `line`",
+                   case_probe(record->input, probe)->probe.choice->name);
+    return checking.error;
+}
+
+struct error *case_read_records(struct simulation_case *input, const char *path,
+                                const struct case_options *options)
+{
+    struct error *error = NULL;
+    for (int i = 0; i < input->loads.count; i++)
+        if (case_load(input, i)->record.from)
+            error = error_join(error, read_record(input, i, path, options));
     return error;
 }
 

@@ -64,6 +64,14 @@ struct probe_gauge {
     double radius; /* m; NAN: the case's resolution */
 };
 
+struct probe_line {
+    struct vector_value from, to;
+    int64_t points;
+    double radius; /* m; NAN: by the case's resolution */
+};
+/* Its columns are called by their field and their distance from the first point, in m. */
+#define PROBE_LINE_AT " at "
+
 struct probe_body {
     char *name;
 };
@@ -74,11 +82,12 @@ struct probe_check {
 
 /* X(name, parameters, help): a key of a probe, its struct <parameters> and <parameters>_table, and
  * its probe_<name>, a struct probe_class. */
-#define PROBE_LIST(X)                                                                          \
-    X(tracer, probe_tracer, "fields of one particle, which it follows")                        \
-    X(gauge, probe_gauge, "fields at a fixed position: means over the particles near it")      \
-    X(body, probe_body, "motion of a body: mass, centre, momentum, rotation, energy, extents") \
-    X(check, probe_check, "what a check measures, over time")                                  \
+#define PROBE_LIST(X)                                                                             \
+    X(tracer, probe_tracer, "fields of one particle, which it follows")                           \
+    X(gauge, probe_gauge, "fields at a fixed position: means over the particles near it")         \
+    X(line, probe_line, "fields at equal distances on a straight line, as many gauges have them") \
+    X(body, probe_body, "motion of a body: mass, centre, momentum, rotation, energy, extents")    \
+    X(check, probe_check, "what a check measures, over time")                                     \
     X(front, measure_front, "position where a field first crosses a value, seen from one end")
 
 #define PROBE_DECLARE(name, parameters, help)           \

@@ -78,7 +78,7 @@ static struct error *choose_elements(struct loads *loads, const struct simulatio
 {
     const struct body_surface *surface = &loads->surface[loads->of[index]];
     const struct load_input *load = case_load(input, index);
-    if (!load_is_blast(load))
+    if (!load_is_local(load))
         return NULL;
     loads->acts[index] = memory_allocate((size_t)surface->elements * sizeof **loads->acts);
     if (!loads->acts[index])
@@ -137,6 +137,7 @@ struct error *loads_follow(struct loads *loads, const struct simulation *simulat
 struct acting {
     const struct load_input *load;
     const bool *acts;
+    const struct load_trace *trace;
     double pressure, traction[3];
     double from, to;
 };
@@ -148,9 +149,9 @@ static struct error *find_acting(const struct simulation *simulation, int index,
     const struct load_input *load = acting->load;
     const char *name = simulation->problem->input->loads.names[index];
     const double middle = from + 0.5 * dt;
-    acting->from = from - load->blast.time;
+    acting->from = from - (load_is_record(load) ? load->record.time : load->blast.time);
     acting->to = acting->from + dt;
-    if (load_is_blast(load))
+    if (load_is_local(load))
         return NULL;
     assert(load->traction.count <= 3);
     for (int k = 0; k < load->traction.count; k++)
@@ -169,6 +170,17 @@ static struct vec3 window_place(const struct body_surface *surface, int32_t e)
                                              : surface->now[e].place;
 }
 
+/* How far PLACE is from the line along the axis of LOAD through the centre of its record. */
+static double distance_from_center(const struct load_input *load, struct vec3 place)
+{
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        const double center = axis < load->record.center.count ? load->record.center.at[axis] : 0.0;
+        sum += axis == load->axis ? 0.0 : square(vec3_at(place, axis) - center);
+    }
+    return sqrt(sum);
+}
+
 static struct push push_of(const struct acting *acting, const struct body_surface *surface,
                            int32_t e)
 {
@@ -183,6 +195,12 @@ static struct push push_of(const struct acting *acting, const struct body_surfac
         pressure = kingery_load_impulse((enum kingery_charge)load->blast.charge, load->blast.mass,
                                         distance, cosine, acting->from, acting->to) /
                    (acting->to - acting->from);
+    } else if (load_is_record(load)) {
+        if (!acting->acts[e])
+            return none;
+        const struct vec3 start = surface->element[e].start.place;
+        pressure = load_trace_mean(acting->trace, distance_from_center(load, start), acting->from,
+                                   acting->to);
     } else if (surface->element[e].cover == SURFACE_COVERED ||
                !is_between(load, window_place(surface, e)))
         return none;
@@ -202,7 +220,8 @@ struct error *loads_push(struct loads *loads, struct simulation *simulation, int
     const struct body_surface *surface = &loads->surface[loads->of[index]];
     struct load_record *record = &simulation->load[index];
     struct acting acting = {.load = case_load(simulation->problem->input, index),
-                            .acts = loads->acts[index]};
+                            .acts = loads->acts[index],
+                            .trace = &simulation->trace[index]};
     TRY(find_acting(simulation, index, from, dt, &acting));
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t e = 0; e < surface->elements; e++)

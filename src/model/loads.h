@@ -19,7 +19,7 @@ struct loads {
     int surfaces; /* of the bodies that have loads */
     struct body_surface *surface;
     int *of;            /* the index of the surface of each load */
-    bool **acts;        /* by element: a blast may push on it; NULL of other loads */
+    bool **acts;        /* by element: a local load may push on it; NULL of others */
     struct push *push;  /* of each element; room for the largest surface */
     bool pushes;        /* whether any of these is on a member of this rank */
     double (*force)[3]; /* of each member */
@@ -29,8 +29,15 @@ struct loads {
 /* Whether a load acts at TIME, as its keys `after` and `before` say. */
 bool load_acts_at(const struct load_input *load, double time);
 BOLIDE_INLINE bool load_is_blast(const struct load_input *load) { return load->blast.at.count > 0; }
+BOLIDE_INLINE bool load_is_record(const struct load_input *load) { return load->record.from; }
 
-/* Which ELEMENT a load acts on at the start, if the load is a blast. */
+/* One that differs from element to element, and acts on those that it takes at the start. */
+BOLIDE_INLINE bool load_is_local(const struct load_input *load)
+{
+    return load_is_blast(load) || load_is_record(load);
+}
+
+/* Whether a local load acts on ELEMENT. */
 bool load_takes(const struct load_input *load, const struct surface_element *element);
 
 /* The cosine of the angle between the normal of a surface element and the direction to the charge;

@@ -26,8 +26,10 @@ struct error *simulation_create_at(const struct place *place, const struct ranks
         .problem = problem, .ranks = ranks, .partition = {.ranks = ranks}, .threads = threads};
     simulation->loads = place->input->loads.count;
     simulation->load = memory_allocate(loads * sizeof *simulation->load);
-    struct error *error =
-        problem && simulation->load ? problem_create(place, problem) : out_of_memory();
+    simulation->trace = memory_allocate(loads * sizeof *simulation->trace);
+    struct error *error = problem && simulation->load && simulation->trace
+                              ? problem_create(place, problem)
+                              : out_of_memory();
     if (error)
         simulation_destroy(simulation);
     else
@@ -205,9 +207,13 @@ void simulation_destroy(struct simulation *simulation)
     if (problem)
         problem_destroy(problem);
     free(problem);
+    for (int i = 0; i < simulation->loads && simulation->trace; i++)
+        load_trace_free(&simulation->trace[i]);
+    free(simulation->trace);
     free(simulation->load);
     simulation->problem = NULL;
     simulation->load = NULL;
+    simulation->trace = NULL;
 }
 
 void simulation_start_phase(struct simulation *simulation)

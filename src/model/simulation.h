@@ -4,6 +4,7 @@
 
 #include "model/ledger.h"
 #include "model/load_record.h"
+#include "model/load_trace.h"
 #include "model/problem.h"
 #include "parallel/partition.h"
 
@@ -63,6 +64,7 @@ struct simulation {
     struct ledger ledger;
     int loads; /* of the case */
     struct load_record *load;
+    struct load_trace *trace; /* of each load; without rows where it has no record */
     int events;
     struct event event[EVENTS_MAX];
     double time;

@@ -41,7 +41,7 @@ static struct error *too_near(const struct simulation_case *input, double edge)
     for (int i = 0; i < input->loads.count; i++) {
         const struct vector_value *between = &case_load(input, i)->between;
         char key[160];
-        if (between->count == 0 || load_is_blast(case_load(input, i)) ||
+        if (between->count == 0 || load_is_local(case_load(input, i)) ||
             between->at[1] - between->at[0] > (2.0 - 1e-6) * edge)
             continue;
         snprintf(key, sizeof key, "%.120s.between", input->loads.names[i]);

@@ -113,7 +113,7 @@ static struct given by_load(const struct mpm *mpm, const struct simulation *simu
 }
 
 /* A blast pushes on the particles of the surface that faces it. */
-static struct given by_blast(const struct mpm *mpm, const struct simulation *simulation,
+static struct given by_element(const struct mpm *mpm, const struct simulation *simulation,
                              const struct surface *surface, int32_t i)
 {
     (void)mpm;
@@ -370,19 +370,19 @@ static struct error *find_load(struct mpm *mpm, struct simulation *simulation,
     const struct load_input *load = surface->load;
     const char *name = simulation->problem->input->loads.names[surface->index];
     const double time = simulation->time + 0.5 * dt;
-    const bool blast = load_is_blast(load);
+    const bool local = load_is_local(load);
     assert(load->traction.count <= 3);
-    if (blast) {
+    if (local) {
         const struct population population = population_of_particles(mpm->particles);
         loads_clear(&mpm->loads, &population);
         surface->force = mpm->loads.force;
     }
-    TRY(loads_push(&mpm->loads, simulation, surface->index, simulation->time, dt, blast));
-    *any = !blast || mpm->loads.pushes;
+    TRY(loads_push(&mpm->loads, simulation, surface->index, simulation->time, dt, local));
+    *any = !local || mpm->loads.pushes;
     for (int k = 0; k < load->traction.count; k++)
         TRY(simulation_value_at(simulation, time, &load->traction.at[k], name, keys[k],
                                 &surface->traction[k]));
-    return load->traction.count || blast
+    return load->traction.count || local
                ? NULL
                : simulation_value_at(simulation, time, &load->pressure, name, "pressure",
                                      &surface->pressure);
@@ -395,12 +395,12 @@ static struct error *push_loads(struct mpm *mpm, struct simulation *simulation, 
     TRY(ranks_agree(simulation->ranks, loads_follow(&mpm->loads, simulation, &population)));
     for (int i = 0; i < input->loads.count; i++) {
         const struct load_input *load = case_load(input, i);
-        const bool blast = load_is_blast(load), part = load->between.count > 0 && !blast;
+        const bool local = load_is_local(load), part = load->between.count > 0 && !local;
         struct surface surface = {.body = load->body,
                                   .low = part ? load->between.at[0] / mpm->edge : -(double)INFINITY,
                                   .high = part ? load->between.at[1] / mpm->edge : (double)INFINITY,
                                   .axis = load->axis,
-                                  .of = blast ? by_blast : by_load,
+                                  .of = local ? by_element : by_load,
                                   .load = load,
                                   .index = i};
         if (!load_acts_at(load, simulation->time))

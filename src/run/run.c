@@ -230,6 +230,9 @@ static struct error *look_ahead(struct run *run)
 {
     run_observe(run);
     struct error *error = probes_prepare(&run->probes, &run->simulation, &run->population);
+    struct probe *kept = run->keeps ? probes_find(&run->probes, run->keeps) : NULL;
+    if (kept)
+        kept->kept = true;
     error = error_join(error, profiles_prepare(&run->simulation, &run->population, &run->profiles));
     error = error_join(
         error, checks_prepare(&run->simulation, &run->population, &run->probes, &run->checks));
@@ -243,6 +246,7 @@ static struct error *look_ahead(struct run *run)
 static struct error *begin(struct run *run)
 {
     TRY(ranks_agree(&run->ranks, make_solver(run)));
+    TRY(ranks_agree(&run->ranks, run_take_records(run)));
     struct error *error = make_particles(run);
     return ranks_agree(&run->ranks, error_join(error, look_ahead(run)));
 }
@@ -390,6 +394,27 @@ struct error *run_case(const struct simulation_case *input, const struct run_opt
     if (!local && run->began > 0.0)
         error = run_report(run, error);
     destroy(run);
+    return error;
+}
+
+struct error *run_probe(const struct simulation_case *input, const struct run_options *options,
+                        const char *name,
+                        struct error *(*take)(const struct probe *probe, void *context),
+                        void *context)
+{
+    struct run_result result;
+    struct run *run = run_new(input, options, &result);
+    if (!run)
+        return out_of_memory();
+    run->keeps = name;
+    struct error *error = run_through(run);
+    if (!error && !result.finished)
+        error = error_new(ERROR_STATE, "it was told to stop");
+    if (!error)
+        error = take(probes_find(&run->probes, name), context);
+    error = run_close_files(run, error);
+    destroy(run);
+    run_result_free(&result);
     return error;
 }
 

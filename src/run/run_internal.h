@@ -29,6 +29,7 @@ struct run {
     void *solver;
     struct population population; /* as it is now; of several the first */
     struct probes probes;
+    const char *keeps; /* a probe whose rows stay in memory; NULL: none */
     struct profiles profiles;
     struct checks *checks;
     struct judgement judgement; /* of the case, by its solver */
@@ -106,6 +107,13 @@ void run_progress(struct run *run);
 struct error *run_watch_physics(struct run *run, const struct totals *now);
 /* Then too, after the probes: warnings of tracers. */
 struct error *run_watch_tracers(struct run *run);
+/* Computes the cases that the records of loads name, each rank for itself. */
+struct error *run_take_records(struct run *run);
+/* Runs INPUT without files, with all rows of its probe NAME, which TAKE then looks at. */
+struct error *run_probe(const struct simulation_case *input, const struct run_options *options,
+                        const char *name,
+                        struct error *(*take)(const struct probe *probe, void *context),
+                        void *context);
 /* Collective: says what each load has delivered beside what it should have. */
 void run_report_loads(struct run *run);
 
