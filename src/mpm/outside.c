@@ -114,7 +114,7 @@ static struct given by_load(const struct mpm *mpm, const struct simulation *simu
 
 /* A blast pushes on the particles of the surface that faces it. */
 static struct given by_element(const struct mpm *mpm, const struct simulation *simulation,
-                             const struct surface *surface, int32_t i)
+                               const struct surface *surface, int32_t i)
 {
     (void)mpm;
     (void)simulation;

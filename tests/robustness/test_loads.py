@@ -291,12 +291,74 @@ def judge_windows():
     return faults
 
 
+BURST = """
+format: 1
+dimension: 2
+geometry: axisymmetric
+resolution: 5 mm
+solver: gas
+materials: {air: {eos: {ideal-gas: {density: 1 kg/m^3, gamma: 1.4}}}}
+bodies:
+  air: {material: air, pressure: 1 bar, box: {from: [0 m, 0 m], to: [0.3 m, 0.3 m]}}
+  hot: {material: air, replaces: air, density: 50 kg/m^3, pressure: 500 bar, ball: {center: [0 m, 60 mm], radius: 30 mm}}
+boundaries: {plane: {kind: reflecting, axis: y, at: 0 m, side: low}}
+run: {until: 0.2 ms}
+probes:
+  plane: {line: {from: [2.5 mm, 2.5 mm], to: [297.5 mm, 2.5 mm], points: 60}, fields: [pressure]}
+"""
+
+STRUCK = """
+format: 1
+dimension: {dimension}
+resolution: 2.5 mm
+solver: {solver}
+{geometry}
+materials: {{metal: {{library: aluminium}}}}
+bodies: {{plate: {{material: metal, {shape}}}}}
+loads:
+  burst: {{on: plate, axis: {axis}, side: high, record: {{from: burst.yaml, probe: plane, time: 10 us{center}}}}}
+run: {{until: 0.25 ms}}
+"""
+
+
+def judge_records():
+    """The impulse that a record gives to a round plate beside an integral of the recorded pressure."""
+    faults, radius = [], 0.1
+    pathlib.Path("burst.yaml").write_text(BURST)
+    code, said, folder = run("burst-alone", BURST)
+    if code:
+        return [f"the gas alone: {said}"]
+    rows = list(csv.reader(open("burst-alone/probes/plane.csv")))
+    table = numpy.array([[float(word) for word in row] for row in rows[1:]])
+    impulse = numpy.trapezoid if hasattr(numpy, "trapezoid") else numpy.trapz
+    over = [impulse(column - column[0], table[:, 0]) for column in table[:, 1:].T]
+    r = numpy.linspace(0.0, radius, 2001)
+    wanted = impulse(numpy.interp(r, numpy.linspace(0.0, 0.295, 60), over) * r, r) * 2.0 * math.pi
+    for solver, dimension, geometry, factor, axis, shape, center in (
+            ("mpm", 2, "geometry: axisymmetric", 2.0 * math.pi, "y",
+             "box: {from: [0 m, -10 mm], to: [100 mm, 0 m]}", ""),
+            ("sph", 2, "geometry: axisymmetric", 2.0 * math.pi, "y",
+             "box: {from: [0 m, -10 mm], to: [100 mm, 0 m]}", ""),
+            ("mpm", 3, "", 1.0, "x",
+             "cylinder: {from: [-10 mm, 0.5 m, 0 m], to: [0 m, 0.5 m, 0 m], radius: 100 mm}",
+             ", center: [0 m, 0.5 m, 0 m]")):
+        name = f"struck-{solver}-{dimension}"
+        text = STRUCK.format(solver=solver, dimension=dimension, geometry=geometry, axis=axis, shape=shape,
+                             center=center)
+        code, said, folder = run(name, text, "--set", "resolution=5 mm") if dimension == 3 else run(name, text)
+        found = re.search(r"load burst: impulse delivered \(([^)]*)\)", said)
+        given = abs(float(found[1].split(",")["xyz".index(axis)])) * factor if found else 0.0
+        if code or abs(given / wanted - 1.0) > 0.03:
+            faults.append(f"{name}: {given:.4g} N s where the record has {wanted:.4g} N s\n{said}")
+    return faults
+
+
 def main():
     if sys.argv[1:2] == ["--campaign"]:
         faults = campaign(int((sys.argv + ["1"])[2]) if len(sys.argv) > 2 else 1,
                           int(sys.argv[3]) if len(sys.argv) > 3 else 24)
     else:
-        faults = judge_without_effect() + judge_windows()
+        faults = judge_without_effect() + judge_windows() + judge_records()
         for geometry, angle, flying, layers, solver in (
                 ("2-D", 30, False, 3, "mpm"), ("2-D", 60, True, 5, "mpm"), ("axisymmetric", 0, True, 2, "mpm"),
                 ("axisymmetric", 30, False, 4, "mpm"), ("3-D", 30, False, 3, "mpm"), ("2-D", 0, True, 4, "sph"),
