@@ -74,6 +74,7 @@ struct start_input {
     char *from;                    /* that case, or its folder; NULL: none */
     double at;                     /* s, how far it is computed; NAN: to its end */
     struct vector_value center;    /* of the blast; count 0: the origin */
+    bool window;                   /* the domain need not hold all of the blast */
     char *material;                /* that of its denser material, which no body has; may be NULL */
     int material_index;            /* filled by case_read; -1: none */
     struct simulation_case *input; /* filled by case_read; owned */

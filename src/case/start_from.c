@@ -20,6 +20,9 @@ const struct parameter case_start_table[] = {
               .below = INFINITY),
     PARAMETER(VECTOR, struct start_input, center, OPTIONAL,
               "where its centre lies here; default: the origin", .unit = "m"),
+    PARAMETER(FLAG, struct start_input, window, "no",
+              "the domain is a window on the blast: it need not hold all of it, nor its centre; "
+              "faces that cut the blast must let waves through, and disturb what comes to them"),
     PARAMETER(TEXT, struct start_input, material, OPTIONAL,
               "the material of this case that its products are; needed where it has two materials"),
     PARAMETER_END,
@@ -179,7 +182,8 @@ void case_check_start(struct checking *checking)
     if (start->material && start->from)
         start->material_index =
             case_find_name(checking, &input->materials, "material", start->material, "material");
-    if (!start->from && (start->material || start->center.count || !isnan(start->at)))
+    if (!start->from &&
+        (start->material || start->center.count || !isnan(start->at) || start->window))
         case_wrong(checking, "", "give `from`, the case that is computed first");
     if (start->center.count)
         case_check_components(checking, "center", start->center.count);

@@ -35,6 +35,7 @@ struct filling {
     const struct simulation *simulation;
     double center[3], reach; /* radius up to which cells take from the blast */
     double share;            /* of the ball that the domain holds between its planes of symmetry */
+    bool window;             /* the domain holds a part of it: shells keep what they have */
     int points;              /* along an axis of a cell */
     struct exact_sum *sum;   /* [bin * SHELLS + number] over all points */
 };
@@ -277,11 +278,11 @@ static struct error *find_share(struct filling *f, const struct blast *blast)
                 return wrong(f->simulation, "center", "the domain must begin at the axis, x = 0");
         } else
             f->share *= half_low || half_high ? 0.5 : 1.0;
-        if ((!half_low && low > -f->reach) || (!half_high && high < f->reach)) {
-            char text[160];
+        if (!f->window && ((!half_low && low > -f->reach) || (!half_high && high < f->reach))) {
+            char text[200];
             snprintf(text, sizeof text,
                      "the blast has a radius of %.4g m by then, which the domain does not hold: "
-                     "give an earlier `at`",
+                     "give an earlier `at`, or `window: yes`",
                      f->reach);
             return wrong(f->simulation, "from", text);
         }
@@ -312,9 +313,13 @@ static void find_factors(const struct filling *f, struct blast *blast)
             for (int k = bin * blast->cells_a_bin;
                  k < (bin + 1) * blast->cells_a_bin && k < blast->last; k++)
                 held += blast->number[n][k] * shell_volume(blast, k);
-            blast->factor[n][bin] = sampled != 0.0 ? f->share * angle * held / sampled : 1.0;
+            blast->factor[n][bin] =
+                sampled != 0.0 && !f->window ? f->share * angle * held / sampled : 1.0;
         }
 }
+
+/* Of the mass of the air, which a cell of one material may hold as air. */
+static const double products_left = 1e-3;
 
 static struct error *fill_cell(const struct filling *f, const struct blast *blast, int32_t i)
 {
@@ -326,6 +331,10 @@ static struct error *fill_cell(const struct filling *f, const struct blast *blas
     if (gas->open && gas->open[i] == 0.0)
         return wrong(f->simulation, "from",
                      "an obstacle lies within the blast by then: give an earlier `at`");
+    if (!gas->layout.two && m.sum[SHELL_SECOND] > products_left * m.sum[SHELL_FIRST])
+        return wrong(f->simulation, "material",
+                     "the products have come into the domain by then: give the material here that "
+                     "they are, or a domain farther away");
     const double own = (all - m.weight) / all;
     for (int n = 0; n < gas->layout.written; n++)
         gas->u[n][i] *= own;
@@ -378,7 +387,8 @@ static void fill_maps(const struct filling *f, const struct blast *blast)
 static struct error *check_materials(const struct simulation *simulation, const struct gas *gas,
                                      const struct blast *blast)
 {
-    const int materials = blast->gas.layout.two ? 2 : 1;
+    const bool alone = simulation->problem->input->start.window && !gas->layout.two;
+    const int materials = blast->gas.layout.two && !alone ? 2 : 1;
     if (materials == 2 && !gas->layout.two)
         return wrong(simulation, "material",
                      "that case has two materials: give the one here that "
@@ -420,7 +430,8 @@ static struct error *check_center(const struct gas *gas, const struct simulation
 {
     const struct vector_value *center = &simulation->problem->input->start.center;
     const struct cell_blocks *cells = gas->cells;
-    for (int axis = 0; axis < cells->dimension; axis++) {
+    for (int axis = 0; axis < cells->dimension && !simulation->problem->input->start.window;
+         axis++) {
         const double at = axis < center->count ? center->at[axis] : 0.0,
                      low = (double)cells->low[axis] * cells->edge,
                      high = (double)cells->high[axis] * cells->edge;
@@ -456,6 +467,7 @@ struct error *gas_start_from(struct gas *gas, struct simulation *simulation)
         .gas = gas, .simulation = simulation, .points = gas->cells->dimension == 3 ? 4 : 8};
     if (!start->input)
         return NULL;
+    f.window = start->window;
     for (int axis = 0; axis < start->center.count; axis++)
         f.center[axis] = start->center.at[axis];
     struct blast *blast = memory_allocate(sizeof *blast);
