@@ -39,6 +39,7 @@ struct body_input {
     struct field_value density, pressure, energy, temperature;
     struct field_list stress;  /* xx, yy, zz, xy, yz, zx, as many as the dimension has */
     double resolution;         /* NAN: the case's */
+    int64_t weights;           /* points along an axis of a site that weigh it; 0: none do */
     struct name_list replaces; /* bodies whose particles give way inside this shape */
     bool driven;               /* keeps its velocity whatever pushes back */
     bool frozen;               /* keeps all of its state, and moves with its velocity */

@@ -226,6 +226,19 @@ static void check_shape(struct checking *checking, const struct body_input *body
         case_wrong(checking, "lattice", "%s", text);
 }
 
+/* Particles of SPH interact by their distances and sizes, and cells are filled by points anyway. */
+static void check_weights(struct checking *checking, const struct body_input *body)
+{
+    const struct choice *solver = checking->input->solver.choice;
+    if (body->weights == 0)
+        return;
+    if (solver && (!strcmp(solver->name, "sph") || !strcmp(solver->name, "gas")))
+        case_wrong(checking, "weights", "the solver %s has no particles of unequal mass in a body",
+                   solver->name);
+    else if (body->lattice.choice && strcmp(body->lattice.choice->name, "square") != 0)
+        case_wrong(checking, "weights", "this needs the lattice `square`");
+}
+
 static void check_body(struct checking *checking, int index)
 {
     struct simulation_case *input = checking->input;
@@ -239,6 +252,7 @@ static void check_body(struct checking *checking, int index)
     if (body->material_index >= 0)
         check_start(checking, body);
     check_shape(checking, body);
+    check_weights(checking, body);
     if (body->velocity.count == 0)
         body->velocity.count = case_dimension_known(checking) ? (int)input->dimension : 0;
     else

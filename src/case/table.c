@@ -34,6 +34,13 @@ static const struct parameter body_table[] = {
     PARAMETER(NUMBER, struct body_input, resolution, OPTIONAL,
               "particle spacing of this body; default: that of the case", .unit = "m",
               .below = INFINITY),
+    PARAMETER(
+        INTEGER, struct body_input, weights, "0",
+        "weighs a particle by the part of its site that is in the body: so many points along "
+        "each axis of a site are looked at, and the particle stands at the mean of those that "
+        "are in it; for walls thinner than a few particles. 0: a site counts whole where its "
+        "centre is in the body (solvers mpm, cfdmp, afdmp)",
+        .above = -1, .below = 33),
     PARAMETER(NAMES, struct body_input, replaces, OPTIONAL,
               "bodies that are cut away where this one is"),
     PARAMETER(FLAG, struct body_input, driven, "no",

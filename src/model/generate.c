@@ -216,8 +216,8 @@ static struct error *explore_body(const struct overlaps *overlaps, int body,
     }
     while (!error && summary->particles <= INT32_MAX && walk_next(&walk, &site, &place)) {
         summary->particles++;
-        finding->volume += walk.row.volume;
-        explore_start(input, body, place, walk.row.volume * walk_depth(input, place), finding);
+        finding->volume += walk.volume;
+        explore_start(input, body, place, walk.volume * walk_depth(input, place), finding);
         if (box && !is_in(box, place, input->dimension))
             continue;
         summary->counted++;

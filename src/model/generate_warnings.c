@@ -113,7 +113,7 @@ static double volume_of_body(const struct overlaps *overlaps, int body)
     struct vec3 place;
     double volume = error ? (double)NAN : 0.0;
     while (!error && walk_next(&walk, &site, &place))
-        volume += walk.row.volume * walk_depth(overlaps->place->input, place);
+        volume += walk.volume * walk_depth(overlaps->place->input, place);
     walk_end(&walk);
     error_free(error);
     return volume;
@@ -125,6 +125,7 @@ static bool refine(const struct simulation_case *input, struct simulation_case *
 {
     static const double WORK = 0x1p24, LEAST = 2.0, MOST = 16.0;
     struct body_input *of = case_body(fine, body);
+    of->weights = 0;
     const double sites = body_lattice(input, body).sites;
     const double work = sites * (4.0 + shape_work(&of->shape)) * input->bodies.count;
     const double times = minimum(floor(pow(WORK / work, 1.0 / (double)input->dimension)), MOST);

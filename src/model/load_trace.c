@@ -25,10 +25,12 @@ void load_trace_integrate(struct load_trace *trace, const double *pressure, doub
     for (int k = 0; k < trace->points; k++) {
         const double rest = isnan(ambient) ? pressure[k] : ambient;
         double impulse = 0.0;
+        trace->largest = maximum(trace->largest, fabs(pressure[k] - rest));
         trace->impulse[k] = 0.0;
         for (int64_t row = 1; row < trace->rows; row++) {
             const double *here = pressure + row * trace->points + k;
             const double mean = 0.5 * (here[0] + here[-trace->points]) - rest;
+            trace->largest = maximum(trace->largest, fabs(here[0] - rest));
             impulse += mean * (trace->time[row] - trace->time[row - 1]);
             trace->impulse[row * trace->points + k] = impulse;
         }

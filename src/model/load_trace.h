@@ -9,6 +9,7 @@ struct load_trace {
     int points;
     int64_t rows;
     double spacing;  /* of the points, m */
+    double largest;  /* pressure above the ambient at any point and time, Pa */
     double *time;    /* of each row, s, growing */
     double *impulse; /* points numbers a row: up to its time, of what is above the ambient, Pa s */
 };

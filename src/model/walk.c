@@ -143,8 +143,8 @@ static bool is_plain(const struct place *place, int body, const struct lattice *
     enum { FEW = 2000 }; /* bodies that are compared with each other */
     const struct simulation_case *input = place->input;
     const struct body_input *of = case_body(input, body);
-    bool plain = shape_is_box(&of->shape) && lattice->kind == LATTICE_SQUARE && !of->varies &&
-                 input->bodies.count <= FEW && !place->is_part;
+    bool plain = of->weights == 0 && shape_is_box(&of->shape) && lattice->kind == LATTICE_SQUARE &&
+                 !of->varies && input->bodies.count <= FEW && !place->is_part;
     for (int k = 0; k < of->velocity.count; k++)
         plain &= !of->velocity.at[k].varying;
     const struct bounds sites = bounds_of_sites(lattice);
@@ -239,15 +239,50 @@ static bool site_cut(const struct walk *walk, struct vec3 place)
            place.y >= high.y - margin || place.z <= low.z + margin || place.z >= high.z - margin;
 }
 
+static bool site_counts(struct walk *walk, struct vec3 place)
+{
+    return !site_cut(walk, place) &&
+           shape_inside(&case_body(walk->input, walk->body)->shape, place) &&
+           !site_dropped(walk, place);
+}
+
+/* The part of the site around *PLACE that counts, by so many points along each axis, and moves
+ * *PLACE to their mean. */
+static double weigh(struct walk *walk, struct vec3 *place)
+{
+    const int points = (int)case_body(walk->input, walk->body)->weights;
+    const int dimension = (int)walk->input->dimension;
+    const double spacing[3] = {walk->lattice.spacing.x, walk->lattice.spacing.y,
+                               walk->lattice.spacing.z};
+    int all = 1, counted = 0;
+    struct vec3 sum = {0.0, 0.0, 0.0};
+    for (int axis = 0; axis < dimension; axis++)
+        all *= points;
+    for (int k = 0; k < all; k++) {
+        double step[3] = {0.0, 0.0, 0.0};
+        for (int axis = 0, rest = k; axis < dimension; axis++, rest /= points)
+            step[axis] = ((rest % points + 0.5) / points - 0.5) * spacing[axis];
+        if (!site_counts(walk, vec3_add(*place, vector_at(step))))
+            continue;
+        sum = vec3_add(sum, vector_at(step));
+        counted++;
+    }
+    if (counted > 0)
+        *place = vec3_add(*place, vec3_scale(1.0 / counted, sum));
+    return (double)counted / all;
+}
+
 bool walk_next(struct walk *walk, int64_t *site, struct vec3 *place)
 {
-    const struct one_of *shape = &case_body(walk->input, walk->body)->shape;
+    const bool weighs = case_body(walk->input, walk->body)->weights > 0;
     while (walk->site < walk->end) {
         *site = walk->site++;
         if (*site >= walk->row.first + walk->row.sites)
             walk_to_row(walk, *site);
         *place = lattice_place(&walk->lattice, &walk->row, *site);
-        if (!site_cut(walk, *place) && shape_inside(shape, *place) && !site_dropped(walk, *place))
+        const double part = weighs ? weigh(walk, place) : site_counts(walk, *place) ? 1.0 : 0.0;
+        walk->volume = part * walk->row.volume;
+        if (part > 0.0)
             return true;
     }
     return false;
@@ -261,8 +296,10 @@ static double work_of_body(const struct place *place, int body, const struct ran
     const double sites = lattice.sites;
     if (!(sites < sites_limit) || is_plain(place, body, &lattice))
         return 0.0;
-    return ceil(sites / ranks->size) *
-           (work_a_site + shape_work(&case_body(place->input, body)->shape));
+    const struct body_input *of = case_body(place->input, body);
+    const double points =
+        of->weights > 0 ? pow((double)of->weights, (double)place->input->dimension) : 1.0;
+    return ceil(sites / ranks->size) * points * (work_a_site + shape_work(&of->shape));
 }
 
 static double work_of_all(const struct place *place, const struct ranks *ranks)

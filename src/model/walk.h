@@ -14,6 +14,7 @@ struct walk {
     bool plain;             /* every site becomes a particle */
     int64_t site, end;      /* the next one to look at */
     struct lattice_row row; /* of the site; empty before the first */
+    double volume;          /* m^dimension, of the particle that walk_next has found */
     struct rival *rivals;   /* bodies whose bounds meet this one's, */
     int rival_count;
     int *near; /* and those among them that meet the row */

@@ -160,14 +160,17 @@ void warnings_start(struct warnings *warnings, const struct simulation *simulati
 }
 
 /* The speed to which LOAD accelerates material from rest, sqrt(2 p/rho), now. */
-static double load_speed(const struct simulation *simulation, const struct load_input *load)
+static double load_speed(const struct simulation *simulation, int index)
 {
+    const struct load_input *load = case_load(simulation->problem->input, index);
     const struct body_input *body = case_body(simulation->problem->input, load->body);
     const struct vec3 nowhere = {0.0, 0.0, 0.0};
     double stress =
         load->traction.count ? 0.0 : field_at(&load->pressure, nowhere, simulation->time);
     for (int k = 0; k < load->traction.count; k++)
         stress = hypot(stress, field_at(&load->traction.at[k], nowhere, simulation->time));
+    if (load->record.from) /* of all times: its peak is short */
+        stress = simulation->trace[index].largest;
     const double speed =
         sqrt(2.0 * fabs(stress) /
              material_density(&simulation->problem->material[body->material_index]));
@@ -181,8 +184,7 @@ static void follow_speed(struct warnings *w, const struct simulation *simulation
 {
     double largest = w->speed;
     for (int i = 0; i < simulation->problem->input->loads.count; i++)
-        largest =
-            maximum(largest, load_speed(simulation, case_load(simulation->problem->input, i)));
+        largest = maximum(largest, load_speed(simulation, i));
     if (any_body(simulation, body_is_prescribed))
         for (int32_t i = 0; i < p->count; i++)
             if (w->prescribed[p->body[i]])

@@ -76,6 +76,13 @@ struct shape_voronoi {
     struct tessellation *grains; /* computed from these; one block of memory */
 };
 
+/* The walls of a honeycomb in a box; 2-D and 3-D. */
+struct shape_honeycomb {
+    struct vector_value from, to, center;
+    double pitch, wall, angle; /* radians */
+    int cells, along;
+};
+
 /* What a closed surface of triangles encloses; 3-D. */
 struct shape_mesh {
     char *file;
@@ -117,22 +124,23 @@ struct shape_rotate {
 
 /* X(identifier, help): struct shape_<identifier>, shape_<identifier>_table,
  * shape_<identifier>_class. */
-#define SHAPE_LIST(X)                                                       \
-    X(box, "an interval, rectangle or block with faces normal to the axes") \
-    X(ball, "an interval, disc or ball about a center")                     \
-    X(shell, "a ring or spherical shell about a center")                    \
-    X(cylinder, "a round bar or pipe between two points; 3-D only")         \
-    X(polygon, "the area within straight edges; 2-D only")                  \
-    X(half_space, "one side of a plane, to cut other shapes with")          \
-    X(template, "the sites of a map with a given letter; 2-D only")         \
-    X(image, "the pixels of a PNG file in a range of grey; 2-D only")       \
-    X(packing, "discs or spheres at random places in a box; 2-D and 3-D")   \
-    X(voronoi, "convex grains that fill a box, with or without gaps")       \
-    X(mesh, "what a closed surface of an STL file encloses; 3-D only")      \
-    X(union, "all points that lie in at least one of a list of shapes")     \
-    X(intersection, "all points that lie in every one of a list of shapes") \
-    X(difference, "the first of a list of shapes without the others")       \
-    X(repeat, "copies of a shape at equal steps along the axes")            \
+#define SHAPE_LIST(X)                                                        \
+    X(box, "an interval, rectangle or block with faces normal to the axes")  \
+    X(ball, "an interval, disc or ball about a center")                      \
+    X(shell, "a ring or spherical shell about a center")                     \
+    X(cylinder, "a round bar or pipe between two points; 3-D only")          \
+    X(polygon, "the area within straight edges; 2-D only")                   \
+    X(half_space, "one side of a plane, to cut other shapes with")           \
+    X(template, "the sites of a map with a given letter; 2-D only")          \
+    X(image, "the pixels of a PNG file in a range of grey; 2-D only")        \
+    X(packing, "discs or spheres at random places in a box; 2-D and 3-D")    \
+    X(voronoi, "convex grains that fill a box, with or without gaps")        \
+    X(honeycomb, "the walls of a honeycomb of hexagons or squares in a box") \
+    X(mesh, "what a closed surface of an STL file encloses; 3-D only")       \
+    X(union, "all points that lie in at least one of a list of shapes")      \
+    X(intersection, "all points that lie in every one of a list of shapes")  \
+    X(difference, "the first of a list of shapes without the others")        \
+    X(repeat, "copies of a shape at equal steps along the axes")             \
     X(rotate, "a rotated shape")
 
 #define SHAPE_DECLARE(identifier, help)                         \

@@ -57,7 +57,7 @@ static struct error *fill_body(const struct simulation *simulation, struct parti
         particles->id[i] = particle_id(body, site);
         particles->body[i] = (uint16_t)body;
         particles->material[i] = (uint16_t)of->material_index;
-        particles->mass[i] = start.density * walk.row.volume * walk_depth(input, place);
+        particles->mass[i] = start.density * walk.volume * walk_depth(input, place);
         particles->density[i] = start.density;
         particles->energy[i] = start.energy;
         particles->pressure[i] = start.pressure;
@@ -70,7 +70,7 @@ static struct error *fill_body(const struct simulation *simulation, struct parti
         if (particles->history[HISTORY_strength_scatter])
             particles->history[HISTORY_strength_scatter][i] =
                 strength_scatter(case_material(input, of->material_index)->material,
-                                 particles->id[i], walk.row.volume * walk_depth(input, place));
+                                 particles->id[i], walk.volume * walk_depth(input, place));
         if (strength_spreads(&case_material(input, of->material_index)->material->strength) &&
             is_outermost(input, of, place, pow(walk.row.volume, 1.0 / (double)input->dimension)))
             particles->history[HISTORY_damage][i] = 1.0; /* flaws of the surface */
