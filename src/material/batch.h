@@ -50,11 +50,20 @@ BOLIDE_INLINE struct eos_value batch_value(const struct eos *eos, const struct b
     return value;
 }
 
-/* Point K, whose energy is ENERGY, or that but for the work of the new pressure. */
-BOLIDE_INLINE void batch_finish(const struct eos *eos, struct batch *b,
-                                const struct batch_matter *matter, int k, double energy,
-                                enum batch_energy from, double shear_modulus)
+/* The sound speed of a point that has VALUE. */
+BOLIDE_INLINE double batch_sound(const struct material *material, const struct eos_value *value,
+                                 double density, double energy)
 {
+    const double modulus = material_shear_modulus(material, density, energy);
+    return material_response(value, density, modulus, 0.0).sound_long;
+}
+
+/* Point K, whose energy is ENERGY, or that but for the work of the new pressure. */
+BOLIDE_INLINE void batch_finish(const struct material *material, struct batch *b,
+                                const struct batch_matter *matter, int k, double energy,
+                                enum batch_energy from)
+{
+    const struct eos *eos = &material->eos;
     struct eos_value value = batch_value(eos, matter, k, energy);
     b->energy[k] = energy;
     if (from == ENERGY_BY_WORK) {
@@ -62,7 +71,7 @@ BOLIDE_INLINE void batch_finish(const struct eos *eos, struct batch *b,
         value = batch_value(eos, matter, k, b->energy[k]);
     }
     b->pressure[k] = value.pressure;
-    b->sound_long[k] = material_response(&value, matter->density[k], shear_modulus, 0.0).sound_long;
+    b->sound_long[k] = batch_sound(material, &value, matter->density[k], b->energy[k]);
 }
 
 /* Energies, where they are not given, and pressures after the step. The loop evaluates the form of
@@ -70,31 +79,30 @@ BOLIDE_INLINE void batch_finish(const struct eos *eos, struct batch *b,
 BOLIDE_INLINE void batch_energies(const struct material *material, struct batch *b,
                                   const struct batch_matter *matter, enum batch_energy from)
 {
-    const double shear_modulus = strength_shear_modulus(&material->strength);
     const double none[POINT_HISTORY] = {0.0};
     double energy[BATCH];
     uint64_t beyond[BATCH], any = 0;
     switch (material->eos.kind) {
-#define BATCH_CASE(name)                                                                          \
-    case EOS_##name:                                                                              \
-        for (int k = 0; k < b->count; k++) {                                                      \
-            const struct eos_##name *eos = &material->eos.of.name;                                \
-            const double density = matter->density[k];                                            \
-            energy[k] = b->energy[k];                                                             \
-            struct eos_value value = eos_##name(eos, density, energy[k], none);                   \
-            value.pressure = batch_pressure(matter, k, value.pressure);                           \
-            beyond[k] = value.status & POINT_BEYOND;                                              \
-            if (from == ENERGY_BY_WORK) {                                                         \
-                b->energy[k] +=                                                                   \
-                    material_work_of_pressure(b->density[k], b->new_density[k], &value);          \
-                value = eos_##name(eos, density, b->energy[k], none);                             \
-                value.pressure = batch_pressure(matter, k, value.pressure);                       \
-            }                                                                                     \
-            b->pressure[k] = value.pressure;                                                      \
-            b->sound_long[k] = material_response(&value, density, shear_modulus, 0.0).sound_long; \
-            beyond[k] |= value.status & POINT_BEYOND;                                             \
-            any |= beyond[k];                                                                     \
-        }                                                                                         \
+#define BATCH_CASE(name)                                                                 \
+    case EOS_##name:                                                                     \
+        for (int k = 0; k < b->count; k++) {                                             \
+            const struct eos_##name *eos = &material->eos.of.name;                       \
+            const double density = matter->density[k];                                   \
+            energy[k] = b->energy[k];                                                    \
+            struct eos_value value = eos_##name(eos, density, energy[k], none);          \
+            value.pressure = batch_pressure(matter, k, value.pressure);                  \
+            beyond[k] = value.status & POINT_BEYOND;                                     \
+            if (from == ENERGY_BY_WORK) {                                                \
+                b->energy[k] +=                                                          \
+                    material_work_of_pressure(b->density[k], b->new_density[k], &value); \
+                value = eos_##name(eos, density, b->energy[k], none);                    \
+                value.pressure = batch_pressure(matter, k, value.pressure);              \
+            }                                                                            \
+            b->pressure[k] = value.pressure;                                             \
+            b->sound_long[k] = batch_sound(material, &value, density, b->energy[k]);     \
+            beyond[k] |= value.status & POINT_BEYOND;                                    \
+            any |= beyond[k];                                                            \
+        }                                                                                \
         break;
         EOS_STATELESS(BATCH_CASE)
 #undef BATCH_CASE
@@ -103,7 +111,7 @@ BOLIDE_INLINE void batch_energies(const struct material *material, struct batch 
     }
     for (int k = 0; any && k < b->count; k++)
         if (beyond[k])
-            batch_finish(&material->eos, b, matter, k, energy[k], from, shear_modulus);
+            batch_finish(material, b, matter, k, energy[k], from);
 }
 
 /* Pressures at the densities of MATTER and the energies before the work of the step. */
@@ -317,6 +325,44 @@ BOLIDE_INLINE void batch_pressed(const struct material *material, struct batch *
     batch_cut(&material->strength, b, matter->least);
 }
 
+/* Point K, of whose strength LEFT remains, from its plastic STRAIN and HEATING before the step. */
+BOLIDE_INLINE void batch_melt(const struct material *material, struct batch *b, double left,
+                              double strain, double heating, int k)
+{
+    const struct motion motion = batch_motion(b, k);
+    struct point point = {.density = b->new_density[k], .deviator = batch_tensor(b->deviator, k)};
+    for (int slot = 0; slot < POINT_HISTORY; slot++)
+        point.history[slot] = 0.0;
+    point.history[HISTORY_plastic_strain] = strain;
+    point.history[HISTORY_plastic_heating] = heating;
+    point.history[HISTORY_damage] = b->damage[k];
+    melting_step(&material->strength, left, &motion, &point);
+    b->plastic_strain[k] = point.history[HISTORY_plastic_strain];
+    b->plastic_heating[k] = point.history[HISTORY_plastic_heating];
+    batch_keep_tensor(b->new_deviator, k, point.deviator);
+}
+
+/* The strength that leaves the pressure as it is. The few points that have melted are done once
+ * more. */
+BOLIDE_INLINE void batch_strength(const struct material *material, struct batch *b)
+{
+    const bool opens = material_opens(material);
+    double left[BATCH], strain[BATCH], heating[BATCH], least = 1.0;
+    for (int k = 0; k < b->count; k++) {
+        const double density = b->new_density[k] / (opens ? 1.0 + b->void_ratio[k] : 1.0);
+        left[k] = melting_left(&material->melting, density, b->energy[k]);
+        least = minimum(least, left[k]);
+    }
+    if (least < 1.0) {
+        memcpy(strain, b->plastic_strain, sizeof strain);
+        memcpy(heating, b->plastic_heating, sizeof heating);
+    }
+    strength_batch(&material->strength, b);
+    for (int k = 0; least < 1.0 && k < b->count; k++)
+        if (left[k] < 1.0)
+            batch_melt(material, b, left[k], strain[k], heating[k], k);
+}
+
 /* Takes the points of a batch through the step: strength, failure, work, pressure. */
 BOLIDE_INLINE void batch_step(const struct material *material, struct batch *b,
                               enum batch_energy from)
@@ -329,7 +375,7 @@ BOLIDE_INLINE void batch_step(const struct material *material, struct batch *b,
     if (strength_takes_pressure(&material->strength)) {
         batch_pressed(material, b, &matter);
     } else {
-        strength_batch(&material->strength, b);
+        batch_strength(material, b);
         for (int k = 0; k < b->count; k++) {
             matter.density[k] = b->new_density[k];
             matter.least[k] = -(double)INFINITY;

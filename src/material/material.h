@@ -13,7 +13,7 @@
 #include "material/eos.h"
 #include "material/failure.h"
 #include "material/heat.h"
-#include "material/strength.h"
+#include "material/melting.h"
 
 /* A material as plain data, copied by value. */
 struct material {
@@ -23,6 +23,7 @@ struct material {
     struct burn burn;
     struct afterburn afterburn;
     struct heat heat;
+    struct melting melting; /* follows from the others: material_complete() */
 };
 
 /* Reference density of the equation of state, kg/m^3. */
@@ -142,14 +143,24 @@ BOLIDE_INLINE struct response material_response(const struct eos_value *eos, dou
     return r;
 }
 
+/* The shear modulus at DENSITY and ENERGY, Pa. */
+BOLIDE_INLINE double material_shear_modulus(const struct material *material, double density,
+                                            double energy)
+{
+    return strength_shear_modulus(&material->strength) *
+           melting_left(&material->melting, density, energy);
+}
+
 /* Pressure and response of a point as it stands. */
 BOLIDE_INLINE struct response material_evaluate(const struct material *material,
                                                 struct point *point)
 {
     struct eos_value value = material_pressure(material, point);
     point->pressure = value.pressure;
-    return material_response(&value, point->density, strength_shear_modulus(&material->strength),
-                             strength_yield(&material->strength, point));
+    const double left = melting_left(&material->melting, point->density, point->energy);
+    return material_response(&value, point->density,
+                             left * strength_shear_modulus(&material->strength),
+                             left * strength_yield(&material->strength, point));
 }
 
 /* Of the equation of state of POINT, whose pressure is TRIAL. */
@@ -394,7 +405,7 @@ BOLIDE_INLINE void material_flow(const struct material *material, struct point *
             point->history[HISTORY_damage] >= 1.0)
             material_open(material, point);
     } else if (material_has_strength(material)) {
-        strength_step(&material->strength, motion, 0.0, point);
+        melting_flow(&material->melting, &material->strength, motion, point);
     }
     if (material_fails(material))
         material_fail(material, motion, point->history[HISTORY_plastic_strain] - strain, point);

@@ -42,6 +42,11 @@
 /* Those with traits.weakened: strength_<identifier>_weaken(). */
 #define STRENGTH_WEAKENED(X, ...) X(johnson_cook, ##__VA_ARGS__)
 
+/* Those of metals, with traits.melts: strength_<identifier>_melt(). */
+#define STRENGTH_MELTING(X, ...)      \
+    X(perfect_plastic, ##__VA_ARGS__) \
+    X(johnson_cook, ##__VA_ARGS__)
+
 /* Those that change the pressure of the equation of state: strength_<identifier>_cut(). */
 #define STRENGTH_CUTTING(X, ...) \
     X(hjc, ##__VA_ARGS__)        \
@@ -203,6 +208,16 @@ BOLIDE_INLINE void strength_weaken(struct strength *strength, double weakening)
 {
     switch (strength->kind) {
         STRENGTH_WEAKENED(STRENGTH_ANSWER, _weaken, weakening)
+    default:
+        break;
+    }
+}
+
+/* Leaves the fraction LEFT of its shear modulus and yield stress. */
+BOLIDE_INLINE void strength_melt(struct strength *strength, double left)
+{
+    switch (strength->kind) {
+        STRENGTH_MELTING(STRENGTH_ANSWER, _melt, left)
     default:
         break;
     }

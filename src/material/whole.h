@@ -12,6 +12,7 @@ BOLIDE_INLINE void material_complete(struct material *material)
     const struct eos_value rest = eos_evaluate(&material->eos, density, 0.0, none);
     strength_take(&material->strength, density, &rest);
     strength_weaken(&material->strength, failure_traits(&material->failure).weakening);
+    material->melting = melting_of(&material->eos, &material->strength);
 }
 
 /* The elastic limit in uniaxial strain at RATE, 1/s, that follows from the constants of a strength

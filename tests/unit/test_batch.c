@@ -181,7 +181,7 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
         {FAILURE_cockcroft_latham,
          {.cockcroft_latham = {.friction = 0.3, .work = 1e7, .spall = NAN}}}};
     struct dice dice = {3};
-    size_t broken = 0, whole = 0;
+    size_t broken = 0, whole = 0, molten = 0;
     for (size_t m = 0; m < COUNT_OF(forms) * COUNT_OF(strengths) * COUNT_OF(failures) * 20; m++) {
         struct material material = {
             .eos = forms[m % COUNT_OF(forms)],
@@ -198,6 +198,8 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
         assert_true(batch_takes(&material));
         for (int k = 0; k < batch.count; k++) {
             throw_point(&dice, material_density(&material), &point[k], &motion[k]);
+            if (!dice_below(&dice, 4)) /* some are hot enough to melt */
+                point[k].energy = dice_between(&dice, 0.0, 3e6);
             if (material_breaks(&material) || strength_spreads(&material.strength)) {
                 const double damage = 0.5 * dice_below(&dice, 3);
                 point[k].history[HISTORY_damage] = damage;
@@ -225,10 +227,11 @@ static void a_batch_does_to_each_point_what_a_step_alone_does(void **state)
                       : material_step_by_work(&material, &point[k], &motion[k]);
             check(&batch, k, &point[k], &response);
             broken += material_failed(&material, point[k].history);
+            molten += melting_left(&material.melting, point[k].density, point[k].energy) < 1.0;
             whole += material_fails(&material) && !material_failed(&material, point[k].history);
         }
     }
-    assert_true(broken > 1000 && whole > 1000);
+    assert_true(broken > 1000 && whole > 1000 && molten > 1000);
 }
 
 static void what_batches_do_not_take_is_told(void **state)

@@ -25,6 +25,10 @@ struct strength_traits {
     bool batched;
     /* Damage of a failure model can weaken it. */
     bool weakened;
+    /* Heat can melt it, as a metal: see melting.h. */
+    bool melts;
+    /* The heat from room temperature to melting, J/kg; NAN: it has none. */
+    double melting_heat;
     /* The specific heat by which it computes temperatures, J/(kg K); NAN: it has none. */
     double capacity;
     /* Why its parameters do not go together, and the parameter to name; NULL when they do. */
@@ -34,7 +38,7 @@ struct strength_traits {
 /* The traits of a model that says no more. */
 BOLIDE_INLINE struct strength_traits strength_default_traits(void)
 {
-    struct strength_traits traits = {.capacity = (double)NAN};
+    struct strength_traits traits = {.melting_heat = (double)NAN, .capacity = (double)NAN};
     return traits;
 }
 

@@ -329,16 +329,24 @@ BOLIDE_INLINE void strength_johnson_cook_weaken(struct strength_johnson_cook *so
     solid->weakening = weakening;
 }
 
+BOLIDE_INLINE void strength_johnson_cook_melt(struct strength_johnson_cook *solid, double left)
+{
+    solid->shear_modulus *= left;
+    solid->a *= left;
+    solid->b *= left;
+}
+
 /* Softening needs both temperatures and the capacity. */
 BOLIDE_INLINE struct strength_traits strength_johnson_cook_traits(
     const struct strength_johnson_cook *solid)
 {
     struct strength_traits traits = strength_default_traits();
-    traits.batched = traits.weakened = true;
+    traits.batched = traits.weakened = traits.melts = true;
     traits.capacity = solid->capacity;
     if (!johnson_cook_softens(solid))
         return traits;
     traits.history = HISTORY_BIT(plastic_heating);
+    traits.melting_heat = solid->capacity * (solid->melt - solid->room);
     if (isnan(solid->melt) || isnan(solid->capacity)) {
         traits.wrong = "m needs this beside it";
         traits.wrong_key = isnan(solid->melt) ? "melt" : "capacity";

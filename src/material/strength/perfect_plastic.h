@@ -50,12 +50,19 @@ BOLIDE_INLINE void strength_perfect_plastic_batch(const struct strength_perfect_
     }
 }
 
+BOLIDE_INLINE void strength_perfect_plastic_melt(struct strength_perfect_plastic *solid,
+                                                 double left)
+{
+    solid->shear_modulus *= left;
+    solid->yield *= left;
+}
+
 BOLIDE_INLINE struct strength_traits strength_perfect_plastic_traits(
     const struct strength_perfect_plastic *solid)
 {
     struct strength_traits traits = strength_default_traits();
     (void)solid;
-    traits.batched = true;
+    traits.batched = traits.melts = true;
     return traits;
 }
 
