@@ -1,17 +1,18 @@
-/* What melting leaves of strength: matter that is thinner than at rest and has the heat of a melt
+/* What melting leaves of strength: matter that is thinner than a melt and has the heat of one
  * carries no shear, neither stress nor waves.
  *
  * Shear modulus and yield stress have the factor 1 - hot thin, each from 0 to 1:
  *
- *   hot  = (e - e_m)/e_m      thin = (1 - rho/rho_0)/0.1
+ *   hot  = (e - e_m)/e_m      thin = (0.9 - rho/rho_0)/0.1
  *
  * e_m is the heat at which the solid begins to melt: that of the strength where it has a melting
  * temperature, c_v (T_melt - T_room), else the one at which the material has expanded by a
  * twentieth at no pressure, e_m = 0.05 c^2/Gamma. The latter is Gruneisen's rule (Ann. Phys. 39
  * (1912) 257, recalled): metals melt when heat has expanded them by 6 or 7 %, whatever their
- * melting temperature. With the latent heat a melt has up to 2 e_m, and a tenth more volume than
- * the cold solid; both ends of the ramps are round figures. Where it is as dense as at rest or
- * denser, a metal melts at higher temperatures, which are not modelled: strength stays.
+ * melting temperature. With its latent heat a melt has up to 2 e_m, and most metals melt at 0.9 or
+ * more of the density of the cold solid, so that what has both is no solid. The ends of the ramps
+ * are round figures. Denser matter keeps its strength here, since what it bears in tension and
+ * under pressure, where it melts at higher temperatures, is not modelled.
  *
  * Steinberg, Cochran and Guinan, J. Appl. Phys. 51 (1980) 1498, let modulus and yield stress vanish
  * above the energy of melting (recalled). */
@@ -25,7 +26,7 @@
 struct melting {
     double heat;                 /* e_m, J/kg */
     double per_heat;             /* 1/e_m, kg/J */
-    double density, per_density; /* rho_0, kg/m^3; 10/rho_0, m^3/kg */
+    double density, per_density; /* 0.9 rho_0, kg/m^3; 10/rho_0, m^3/kg */
 };
 
 /* That of a metal with the equation of state EOS. */
@@ -41,7 +42,7 @@ BOLIDE_INLINE struct melting melting_of(const struct eos *eos, const struct stre
                                                   : 0.05 * density * rest.dp_drho / rest.dp_de;
     melting.heat = heat;
     melting.per_heat = 1.0 / heat;
-    melting.density = density;
+    melting.density = 0.9 * density;
     melting.per_density = 10.0 / density;
     return melting;
 }
