@@ -6,6 +6,7 @@
 #include "base/parameter.h"
 #include "document/document.h"
 #include "material/burn/afterburn.h"
+#include "material/composition.h"
 #include "material/eos/common.h"
 
 struct bounds;
@@ -19,15 +20,16 @@ struct material;
  * replace those of the library's file. */
 struct material_input {
     char *library;
-    char *description, *source; /* for people; NULL: not given */
-    struct one_of eos;          /* "eos" */
-    struct one_of strength;     /* "strength"; not given: a fluid */
-    struct one_of failure;      /* "failure"; not given: never */
-    struct one_of burn;         /* "burn"; not given: instant */
-    struct afterburn afterburn; /* "afterburn" */
-    struct heat heat;           /* "heat" */
-    double tensile_strength;    /* Pa; NAN: not known */
-    struct material *material;  /* filled by case_read from the above; owned */
+    char *description, *source;     /* for people; NULL: not given */
+    struct one_of eos;              /* "eos" */
+    struct one_of strength;         /* "strength"; not given: a fluid */
+    struct one_of failure;          /* "failure"; not given: never */
+    struct one_of burn;             /* "burn"; not given: instant */
+    struct afterburn afterburn;     /* "afterburn" */
+    struct composition composition; /* "composition" */
+    struct heat heat;               /* "heat" */
+    double tensile_strength;        /* Pa; NAN: not known */
+    struct material *material;      /* filled by case_read from the above; owned */
 };
 
 /* bodies: NAME: {material, a shape, velocity, ...} */

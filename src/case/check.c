@@ -27,8 +27,10 @@ struct error *case_fill_material(struct material_input *material)
     material->material = plain;
     plain->heat = material->heat;
     plain->afterburn = material->afterburn;
-    double *const none[] = {&plain->afterburn.energy, &plain->afterburn.rate,
-                            &plain->afterburn.slow_energy, &plain->afterburn.slow_rate};
+    plain->composition = material->composition;
+    double *const none[] = {&plain->afterburn.energy,      &plain->afterburn.rate,
+                            &plain->afterburn.slow_energy, &plain->afterburn.slow_rate,
+                            &plain->afterburn.mixing,      &plain->afterburn.load};
     for (size_t k = 0; k < COUNT_OF(none); k++)
         if (isnan(*none[k]))
             *none[k] = 0.0;
@@ -88,8 +90,19 @@ static void check_material(struct checking *checking, int index)
         case_wrong(checking, "afterburn", "without `slow_rate` nothing burns slowly: give it");
     if (afterburn->slow_rate > 0.0 && afterburn->slow_energy == 0.0)
         case_wrong(checking, "afterburn", "without `slow_energy` nothing burns slowly: give it");
-    if (afterburn->energy == 0.0 && (afterburn->slow_energy > 0.0 || afterburn->air > 0.0))
+    if (afterburn->energy == 0.0 &&
+        (afterburn->slow_energy > 0.0 || afterburn->air > 0.0 || afterburn->mixing > 0.0))
         case_wrong(checking, "afterburn", "the second stage follows the first: give `energy`");
+    const struct composition *of = &material->material->composition;
+    if (afterburn->mixing > 0.0 && afterburn->slow_energy > 0.0)
+        case_wrong(checking, "afterburn",
+                   "`mixing` is in place of a second stage: leave out it or `slow_energy` and "
+                   "`slow_rate`");
+    if (afterburn->mixing > 0.0 && !composition_is_known(of))
+        case_wrong(checking, "afterburn",
+                   "`mixing` needs the `composition` of the material, which it does not have");
+    if (afterburn->load > 0.0 && afterburn->mixing == 0.0)
+        case_wrong(checking, "afterburn", "without `mixing` the load has no effect: leave it out");
     if ((text = material_burn_wrong(material->material)))
         case_wrong(checking, "burn", "%s", text);
 }

@@ -35,6 +35,29 @@ static const struct parameter afterburn_table[] = {
               "mass of air that a mass of products takes to burn; burning ends when that of the "
               "domain at the start is used up; default: there is always enough",
               .below = INFINITY, .closed = true),
+    PARAMETER(NUMBER, struct afterburn, mixing, OPTIONAL,
+              "rate at which products mix with the air after the first stage, to a gas of the "
+              "pressure that equilibrium gives the room; in place of a second stage; default: not "
+              "at all",
+              .unit = "1/s", .below = INFINITY),
+    PARAMETER(NUMBER, struct afterburn, load, OPTIONAL,
+              "mass of products over the volume of the room in which they mix; default: that of "
+              "the domain",
+              .unit = "kg/m^3", .below = INFINITY),
+    PARAMETER_END,
+};
+
+static const struct parameter composition_table[] = {
+    PARAMETER(NUMBER, struct composition, carbon, "0", "atoms of a formula unit", .below = INFINITY,
+              .closed = true),
+    PARAMETER(NUMBER, struct composition, hydrogen, "0", "atoms of a formula unit",
+              .below = INFINITY, .closed = true),
+    PARAMETER(NUMBER, struct composition, nitrogen, "0", "atoms of a formula unit",
+              .below = INFINITY, .closed = true),
+    PARAMETER(NUMBER, struct composition, oxygen, "0", "atoms of a formula unit", .below = INFINITY,
+              .closed = true),
+    PARAMETER(NUMBER, struct composition, formation, "0 J/kg",
+              "heat of formation per mass, at 25 degrees Celsius", .unit = "J/kg"),
     PARAMETER_END,
 };
 
@@ -58,6 +81,9 @@ const struct parameter case_material_table[] = {
     PARAMETER(TABLE, struct material_input, afterburn, OPTIONAL,
               "how products burn in the air around them, with the solver gas; default: not at all",
               .table = afterburn_table),
+    PARAMETER(TABLE, struct material_input, composition, OPTIONAL,
+              "what an explosive consists of, for the equilibrium of its products in a room",
+              .table = composition_table),
     PARAMETER(TABLE, struct material_input, heat, OPTIONAL,
               "its thermal constants, needed for temperatures", .table = heat_table),
     PARAMETER(

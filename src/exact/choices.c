@@ -1,6 +1,7 @@
 /* The list of exact solutions; see choices.h. */
 #include "exact/choices.h"
 
+#include "exact/closed_room.h"
 #include "exact/elastic_plastic_impact.h"
 #include "exact/elastic_plastic_riemann.h"
 #include "exact/failure_wave.h"

@@ -21,6 +21,8 @@
       "a blast in an ideal gas from a point, a line or a plane as it weakens: its front")         \
     X(kingery_bulmash, "kingery-bulmash",                                                         \
       "the blast of TNT in air, free or on the ground: curves through measurements")              \
+    X(closed_room, "closed-room",                                                                 \
+      "the gas of a closed room in which an explosive has burnt, in chemical equilibrium")        \
     X(gas_expansion, "gas-expansion",                                                             \
       "homogeneous expansion of a slab, cylinder or ball of gas into a vacuum")                   \
     X(slab_detonation, "slab-detonation",                                                         \

@@ -10,6 +10,7 @@
 
 #include "base/vector.h"
 #include "material/burn.h"
+#include "material/composition.h"
 #include "material/eos.h"
 #include "material/failure.h"
 #include "material/heat.h"
@@ -22,6 +23,7 @@ struct material {
     struct failure failure;
     struct burn burn;
     struct afterburn afterburn;
+    struct composition composition;
     struct heat heat;
     struct melting melting; /* follows from the others: material_complete() */
 };

@@ -376,4 +376,18 @@ static struct error *measure(const struct measurement *measurement, double *valu
     return made ? NULL : out_of_memory_for("a check");
 }
 
-const struct measure_class measure_recorded = {.unit = unit, .measure = measure, .of_run = true};
+/* A pressure that the exact solution has everywhere and always. */
+static double expected(const struct measurement *measurement)
+{
+    const struct measure_recorded *recorded = measurement->check->measure.value;
+    const struct exact_class *exact = measurement->exact;
+    const bool is_level = recorded->take == TAKE_LAST || recorded->take == TAKE_MEAN ||
+                          recorded->take == TAKE_MINIMUM || recorded->take == TAKE_MAXIMUM;
+    if (exact->known != EXACT_PRESSURE || exact->blast || strcmp(recorded->column, "pressure") ||
+        !is_level)
+        return NAN;
+    return exact->sample(measurement->solved, SIDE_LEFT, 0.0, 0.0).pressure;
+}
+
+const struct measure_class measure_recorded = {
+    .unit = unit, .measure = measure, .of_run = true, .expected = expected};

@@ -11,7 +11,14 @@
  *   dl/dt = a_s (1 - l)
  *
  * l ends where the air of the whole domain is used up, of which a kg of products takes a given
- * mass. */
+ * mass.
+ *
+ * In place of the second stage products whose first has ended may mix with the air of the room,
+ *
+ *   dm/dt = -a_m m
+ *
+ * to a gas of the pressure that chemical equilibrium gives the room (equilibrium.h): the mass
+ * becomes air, with the heat after which all of it has that pressure. */
 #ifndef BOLIDE_BURN_AFTERBURN_H
 #define BOLIDE_BURN_AFTERBURN_H
 
@@ -24,6 +31,8 @@ struct afterburn {
     double depletion, power;
     double slow_energy, slow_rate; /* Q_s, J/kg, 0: one stage; a_s, 1/s */
     double air;                    /* kg that a kg of products takes; 0: it does not matter */
+    double mixing;                 /* a_m, 1/s; 0: products stay what they are */
+    double load; /* kg/m^3, mass of products over the volume of the room; 0: of the domain */
 };
 
 /* The heat of both stages, J/kg. */
