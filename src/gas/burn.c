@@ -4,6 +4,7 @@
  * around them. */
 #include "gas/gas_internal.h"
 #include "gas/mixture.h"
+#include "material/equilibrium.h"
 #include "material/material.h"
 
 /* When the detonation arrives at PLACE, in a cell that BODY had at the start. */
@@ -117,24 +118,94 @@ struct error *gas_burn(struct gas *gas, const struct simulation *simulation, dou
     return NULL;
 }
 
-void gas_count_air(struct gas *gas, const struct simulation *simulation)
+/* Masses of air and of products, and the volume, of all open cells. */
+static void count_masses(const struct gas *gas, const struct simulation *simulation, double mass[2],
+                         double *room)
 {
     const struct cell_blocks *cells = gas->cells;
-    const double volume = pow(cells->edge, cells->dimension), takes = gas->afterburn.air;
-    struct exact_sum mass[2] = {{{0}, 0, false}, {{0}, 0, false}}; /* of air, of products */
-    if (!gas->layout.afterburns || !(takes > 0.0))
-        return;
+    const double volume = pow(cells->edge, cells->dimension);
+    struct exact_sum sum[3] = {{{0}, 0, false}, {{0}, 0, false}, {{0}, 0, false}};
     for (int32_t i = 0; i < cells->count; i++) {
         if (gas->open && gas->open[i] == 0.0)
             continue;
         const double size = gas_cell_volume(volume, cells->edge, cells->position[i][0], gas->round);
         const double second = gas->u[GAS_SECOND][i];
-        exact_sum_add(&mass[0], size * (gas->u[GAS_DENSITY][i] - second));
-        exact_sum_add(&mass[1], size * second);
+        exact_sum_add(&sum[0], size * (gas->u[GAS_DENSITY][i] - second));
+        exact_sum_add(&sum[1], size * second);
+        exact_sum_add(&sum[2], size);
     }
-    ranks_sum_exact(simulation->ranks, mass, 2);
-    const double air = exact_sum_value(&mass[0]), products = exact_sum_value(&mass[1]);
-    gas->most_afterburnt = products > 0.0 ? minimum(1.0, air / (takes * products)) : 1.0;
+    ranks_sum_exact(simulation->ranks, sum, 3);
+    mass[0] = exact_sum_value(&sum[0]);
+    mass[1] = exact_sum_value(&sum[1]);
+    *room = exact_sum_value(&sum[2]);
+}
+
+void gas_count_air(struct gas *gas, const struct simulation *simulation)
+{
+    const double none[POINT_HISTORY] = {0.0}, takes = gas->afterburn.air;
+    double mass[2], volume;
+    struct point air;
+    if (!gas->layout.afterburns || !(takes > 0.0 || gas->afterburn.mixing > 0.0))
+        return;
+    count_masses(gas, simulation, mass, &volume);
+    struct room room = {mass[1] / volume, mass[0] / volume, 0.0};
+    if (gas->afterburn.load > 0.0 && gas_state_of_air(gas, simulation, &air)) {
+        room.load = gas->afterburn.load;
+        room.air = air.density;
+    }
+    if (takes > 0.0)
+        gas->most_afterburnt = room.load > 0.0 ? minimum(1.0, room.air / (takes * room.load)) : 1.0;
+    if (!(gas->afterburn.mixing > 0.0) || !(room.load > 0.0) ||
+        !gas_state_of_air(gas, simulation, &air))
+        return;
+    /* explosives at rest have no energy, and all products have burnt as far as they may */
+    const struct eos_value value = eos_evaluate(&gas->eos[0], air.density, air.energy, none);
+    room.temperature = equilibrium_temperature_of_air(value.pressure, air.density);
+    const double per_energy = value.dp_de / air.density,
+                 pressure = equilibrium_of_room(
+                                &simulation->problem->material[gas->material[1]].composition, &room)
+                                .pressure;
+    gas->mixing_heat = (pressure / per_energy - room.air * air.energy) / room.load -
+                       gas->most_afterburnt * gas->afterburn.energy;
+}
+
+/* The pressure of cell I of both materials, all burnt, with FRACTION and mass SECOND of the second
+ * and ENERGY, rho e. */
+static double pressure_of(const struct gas *gas, int32_t i, double fraction, double second,
+                          double energy)
+{
+    const struct eos *const eos[2] = {&gas->eos[0], &gas->eos[1]};
+    const double first = gas->u[GAS_DENSITY][i] - second, all[2] = {1.0, 1.0},
+                 density[2] = {mixture_density(eos[0], first, 1.0 - fraction),
+                               mixture_density(eos[1], second, fraction)};
+    const struct mixture mixture = mixture_of(eos, density, fraction, all);
+    return mixture_pressure(&mixture, energy);
+}
+
+/* Over DT products in cell I become air that has their volume, energy and velocity, and the heat of
+ * mixing, which is returned, J/m^3. What is next to nothing becomes air at once. Where products
+ * have too little energy for a heat below zero they wait until they have more. */
+static double mix(struct gas *gas, int32_t i, double dt)
+{
+    static const double little = 1e-5, least = 0.5;
+    double *second = &gas->u[GAS_SECOND][i], *fraction = &gas->u[GAS_FRACTION][i];
+    const double density = gas->u[GAS_DENSITY][i],
+                 part = *second < little * density ? 1.0
+                                                   : 1.0 - exponential(-gas->afterburn.mixing * dt),
+                 heat = part * *second * gas->mixing_heat, left = 1.0 - part;
+    if (gas->mixing_heat < 0.0 && left > 0.0) {
+        double energy = gas->u[GAS_ENERGY][i];
+        for (int axis = 0; axis < 3; axis++)
+            energy -= 0.5 * square(gas->u[GAS_MOMENTUM + axis][i]) / density;
+        if (!(pressure_of(gas, i, left * *fraction, left * *second, energy + heat) >
+              least * gas->cells->pressure[i]))
+            return 0.0;
+    }
+    *second *= left;
+    *fraction *= left;
+    gas->u[GAS_AFTERBURNT][i] *= left;
+    gas->u[GAS_ENERGY][i] += heat;
+    return heat;
 }
 
 /* Block B over DT. */
@@ -144,18 +215,21 @@ static void afterburn_block(struct gas *gas, int32_t b, double dt, struct ledger
     const struct cell_block *block = &cells->block[b];
     const int32_t end = block->first + block->count[0] * block->count[1] * block->count[2];
     const double volume = pow(cells->edge, cells->dimension),
-                 *burnt = gas->layout.lit ? gas->u[gas->layout.burnt] : NULL;
+                 done = gas->most_afterburnt * (1.0 - 1e-9), /* what rounding leaves */
+                     *burnt = gas->layout.lit ? gas->u[gas->layout.burnt] : NULL;
     for (int32_t i = block->first; i < end; i++) {
         const double mass = gas->u[GAS_SECOND][i];
         if (mass <= 0.0 || (burnt && burnt[i] < 1.0) || (gas->open && gas->open[i] == 0.0))
             continue;
         double *own = &gas->u[GAS_AFTERBURNT][i];
         const double gain = afterburn_gain(&gas->afterburn, *own / mass, cells->pressure[i],
-                                           gas->most_afterburnt, dt),
-                     heat = mass * gain * afterburn_heat(&gas->afterburn);
+                                           gas->most_afterburnt, dt);
+        double heat = mass * gain * afterburn_heat(&gas->afterburn);
         *own += mass * gain;
         gas->u[GAS_ENERGY][i] += heat;
-        if (heat > 0.0)
+        if (gas->afterburn.mixing > 0.0 && *own >= done * mass)
+            heat += mix(gas, i, dt);
+        if (heat != 0.0)
             ledger_book(
                 ledger, LEDGER_AFTERBURN, 0.0, vec3_make(0.0, 0.0, 0.0), vec3_make(0.0, 0.0, 0.0),
                 heat * gas_cell_volume(volume, cells->edge, cells->position[i][0], gas->round));

@@ -288,20 +288,27 @@ bool gas_starts_warm(const struct simulation *simulation, const struct gas *gas)
     return warm;
 }
 
+bool gas_state_of_air(const struct gas *gas, const struct simulation *simulation,
+                      struct point *point)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    for (int b = 0; b < input->bodies.count; b++)
+        if (case_body(input, b)->material_index == gas->material[0] &&
+            state_of(simulation, b, point))
+            return true;
+    return false;
+}
+
 /* The pressure of the gas around an explosive that is lit, at the middle of the first body of gas;
  * that of the atmosphere where there is none. */
 static double pressure_around(const struct filling *f)
 {
-    const struct simulation_case *input = f->simulation->problem->input;
     const struct gas *gas = f->gas;
-    for (int b = 0; b < input->bodies.count && gas->layout.two; b++) {
-        const double none[POINT_HISTORY] = {0.0};
-        struct point point;
-        if (case_body(input, b)->material_index == gas->material[0] &&
-            state_of(f->simulation, b, &point))
-            return eos_evaluate(&gas->eos[0], point.density, point.energy, none).pressure;
-    }
-    return 101325.0;
+    const double none[POINT_HISTORY] = {0.0};
+    struct point point;
+    return gas->layout.two && gas_state_of_air(gas, f->simulation, &point)
+               ? eos_evaluate(&gas->eos[0], point.density, point.energy, none).pressure
+               : 101325.0;
 }
 
 struct error *gas_fill(void *solver, struct simulation *simulation)

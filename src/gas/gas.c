@@ -374,6 +374,8 @@ static struct error *gas_state(void *solver, struct visitor *visitor)
     struct gas *gas = solver;
     if (gas->layout.afterburns && gas->afterburn.air > 0.0)
         TRY(visitor->visit(visitor, "afterburn/most", NUMBER_DOUBLE, &gas->most_afterburnt, 1, 1));
+    if (gas->layout.afterburns && gas->afterburn.mixing > 0.0)
+        TRY(visitor->visit(visitor, "afterburn/mixing", NUMBER_DOUBLE, &gas->mixing_heat, 1, 1));
     return gas->layout.marked ? gas_visit_markers(gas, visitor) : NULL;
 }
 

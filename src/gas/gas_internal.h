@@ -48,6 +48,7 @@ struct gas {
     struct gas_layout layout;
     struct afterburn afterburn;
     double most_afterburnt; /* the fraction of the products for which there is air */
+    double mixing_heat;     /* J/kg of products that become air */
     double detonation;      /* its speed, m/s, of an explosive that is lit */
     bool unburnt;           /* some of it is, on some rank */
     bool thaws;             /* the second material is never colder than 0 K */
@@ -117,10 +118,15 @@ void gas_lay_out(struct gas_layout *layout);
 
 /* Explosives that are lit, and products that burn in the air (burn.c). The first, collective: how
  * much has burnt at TIME, and whether some has not. The second, collective: for which fraction of
- * the products the cells as they are have air. The third adds the heat of afterburning over DT. */
+ * the products the cells as they are have air, and with which heat they mix. The third adds the
+ * heat of afterburning over DT. */
 struct error *gas_burn(struct gas *gas, const struct simulation *simulation, double time);
 void gas_count_air(struct gas *gas, const struct simulation *simulation);
 void gas_afterburn(struct gas *gas, struct simulation *simulation, double dt);
+
+/* The state at the start of the first body of the first material; false: there is none. */
+bool gas_state_of_air(const struct gas *gas, const struct simulation *simulation,
+                      struct point *point);
 
 /* Whether no body of the second material is colder than 0 K at the start. */
 bool gas_starts_warm(const struct simulation *simulation, const struct gas *gas);

@@ -133,6 +133,12 @@ static void refuse_materials(const struct simulation *simulation,
         finding_add(findings, FINDING_WRONG, "materials", input->materials.names[material[0]],
                     "the denser of two materials burns in the other: "
                     "leave `afterburn` out");
+    if (two && of[material[1]].afterburn.mixing > 0.0 &&
+        isnan(eos_ratio_of_heats(&of[material[0]].eos)))
+        finding_add(findings, FINDING_WRONG, "materials", input->materials.names[material[0]],
+                    "products mix with an ideal gas: choose `eos: ideal-gas`, or leave "
+                    "`afterburn.mixing` of \"%s\" out",
+                    input->materials.names[material[1]]);
     if (!two && of[material[0]].afterburn.energy > 0.0)
         finding_add(findings, FINDING_WRONG, "materials", input->materials.names[material[0]],
                     "products burn in a second material, the air: leave "
