@@ -30,7 +30,8 @@ struct error *case_fill_material(struct material_input *material)
     plain->composition = material->composition;
     double *const none[] = {&plain->afterburn.energy,      &plain->afterburn.rate,
                             &plain->afterburn.slow_energy, &plain->afterburn.slow_rate,
-                            &plain->afterburn.mixing,      &plain->afterburn.load};
+                            &plain->afterburn.mixing,      &plain->afterburn.load,
+                            &plain->composition.formation};
     for (size_t k = 0; k < COUNT_OF(none); k++)
         if (isnan(*none[k]))
             *none[k] = 0.0;

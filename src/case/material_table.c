@@ -56,8 +56,8 @@ static const struct parameter composition_table[] = {
               .below = INFINITY, .closed = true),
     PARAMETER(NUMBER, struct composition, oxygen, "0", "atoms of a formula unit", .below = INFINITY,
               .closed = true),
-    PARAMETER(NUMBER, struct composition, formation, "0 J/kg",
-              "heat of formation per mass, at 25 degrees Celsius", .unit = "J/kg"),
+    PARAMETER(NUMBER, struct composition, formation, OPTIONAL,
+              "heat of formation per mass, at 25 degrees Celsius; default: 0", .unit = "J/kg"),
     PARAMETER_END,
 };
 
