@@ -21,6 +21,8 @@ struct gas_closure {
     const struct eos *eos, *other; /* of the second material, NULL: there is one */
     const struct eos *lit;         /* of an explosive of which some is unburnt, NULL: none is */
     bool marked;                   /* markers divide the materials (markers.h) */
+    bool liquid;                   /* a material is one: floors count */
+    double floor[2];               /* pressures below which no liquid is, Pa; -INFINITY in gases */
 };
 
 enum content_kind { CONTENT_FIRST, CONTENT_SECOND, CONTENT_BOTH };
@@ -39,6 +41,7 @@ struct gas_content {
 /* What the closure says of the cells or faces of a row. */
 struct row_values {
     double pressure[ROW_ROOM], dp_drho[ROW_ROOM], dp_de[ROW_ROOM];
+    double lift[ROW_ROOM]; /* by how much a floor raises the pressure; where floors count */
 };
 
 /* Of two materials in a cell, the kind that its FRACTION says. */
@@ -100,6 +103,38 @@ static inline void row_evaluate(const struct eos *eos, const double *density, co
             }
 }
 
+static const double LIQUID_LEAST = 1e-3; /* Pa, of a mixture with a liquid */
+
+/* Of a liquid full of bubbles: its sound speed, m/s, of which any small one serves since its
+ * pressure does not change; and the fraction of its density at rest below which little liquid is
+ * left and the pressure vanishes with the density, so that it cannot accelerate next to nothing. */
+static const double CAVITY_SOUND = 10.0, CAVITY_LEAST = 1e-3;
+
+/* What values at FIRST to LAST become in the liquid EOS whose pressure does not fall below FLOOR:
+ * bubbles take the volume that is missing. The energy stays what it is, so that the liquid bears
+ * pressure again when it is back at the density that it had. */
+static inline void row_cavitate(const struct eos *eos, double floor, const double *density,
+                                int first, int last, struct row_values *values)
+{
+    const double sparse = CAVITY_LEAST * eos_reference_density(eos);
+    FOR_ROW (k, first, last) {
+        const double least = floor * minimum(1.0, density[k] / sparse);
+        const bool cavity = values->pressure[k] < least;
+        values->lift[k] = cavity ? least - values->pressure[k] : 0.0;
+        values->pressure[k] = cavity ? least : values->pressure[k];
+        values->dp_drho[k] =
+            cavity ? maximum(square(CAVITY_SOUND), 2.0 * least / density[k]) : values->dp_drho[k];
+        values->dp_de[k] = cavity ? 0.0 : values->dp_de[k];
+    }
+}
+
+/* The least pressure of a mixture with a liquid, which bears no tension: what else is there would
+ * not either. */
+BOLIDE_INLINE double gas_mixed_floor(const struct gas_closure *closure)
+{
+    return maximum(maximum(closure->floor[0], closure->floor[1]), LIQUID_LEAST);
+}
+
 /* What values at FIRST to LAST become where only the fraction BURNT of the explosive EOS is. Its
  * ENERGY counts from the explosive at rest, whose pressure vanishes: with the pressure P(rho, e) =
  * P_0(rho) + b(rho) e of the products
@@ -141,7 +176,7 @@ APART void gas_evaluate_mixed(const struct gas_closure *closure, const struct ga
                               struct row_values *values)
 {
     const struct eos *const eos[2] = {closure->eos, closure->other};
-    double gamma[ROW_ROOM], slope[ROW_ROOM];
+    double gamma[ROW_ROOM], slope[ROW_ROOM], lift[ROW_ROOM];
     struct mixtures mixtures;
     mixtures.count = 0;
     FOR_ROW (k, first, last) {
@@ -152,18 +187,21 @@ APART void gas_evaluate_mixed(const struct gas_closure *closure, const struct ga
         gas_burnt_of(closure, closure->lit ? of->burnt[k] : 1.0, burnt);
         mixtures_add(&mixtures, k, own, of->fraction[k], burnt, density[k] * energy[k]);
     }
+    const double bound = closure->liquid ? maximum(of->least, gas_mixed_floor(closure)) : of->least;
     const int lanes = mixtures_find(&mixtures, eos);
     for (int i = 0; i < lanes; i++) {
         const struct mixture mixture = mixtures_at(&mixtures, i);
-        const double pressure = maximum(mixtures.pressure[i], of->least),
+        const double pressure = maximum(mixtures.pressure[i], bound),
                      least = of->least > 0.0 ? pressure / mixture.density : -(double)INFINITY,
                      sound_square = maximum(mixture_sound_square(&mixture, pressure), least);
         gamma[i] = mixture_gamma(&mixture);
+        lift[i] = pressure - mixtures.pressure[i];
         mixtures.pressure[i] = pressure;
         slope[i] = sound_square;
     }
     for (int i = 0; i < mixtures.count; i++) {
         const int k = mixtures.place[i];
+        values->lift[k] = lift[i];
         values->pressure[k] = mixtures.pressure[i];
         values->dp_de[k] = gamma[i] * density[k];
         values->dp_drho[k] = slope[i] - gamma[i] * mixtures.pressure[i] / density[k];
@@ -179,12 +217,17 @@ APART void gas_evaluate_two(const struct gas_closure *closure, const struct gas_
     row_evaluate(closure->other, density, energy, first, last, &other);
     if (closure->lit == closure->other)
         row_unburn(closure->other, density, energy, of->burnt, first, last, &other);
+    if (closure->liquid)
+        row_cavitate(closure->other, closure->floor[1], density, first, last, &other);
     FOR_ROW (k, first, last) {
         const bool second = of->kind[k] == CONTENT_SECOND;
         values->pressure[k] = second ? other.pressure[k] : values->pressure[k];
         values->dp_drho[k] = second ? other.dp_drho[k] : values->dp_drho[k];
         values->dp_de[k] = second ? other.dp_de[k] : values->dp_de[k];
     }
+    if (closure->liquid)
+        FOR_ROW (k, first, last)
+            values->lift[k] = of->kind[k] == CONTENT_SECOND ? other.lift[k] : values->lift[k];
     if (!closure->marked)
         gas_evaluate_mixed(closure, of, density, energy, first, last, values);
     else
@@ -201,6 +244,8 @@ static inline void gas_evaluate(const struct gas_closure *closure, const struct 
     row_evaluate(closure->eos, density, energy, first, last, values);
     if (closure->lit == closure->eos)
         row_unburn(closure->eos, density, energy, of->burnt, first, last, values);
+    if (closure->liquid)
+        row_cavitate(closure->eos, closure->floor[0], density, first, last, values);
     if (of->kind)
         gas_evaluate_two(closure, of, density, energy, first, last, values);
 }

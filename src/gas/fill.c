@@ -277,8 +277,8 @@ static bool state_of(const struct simulation *simulation, int body, struct point
 bool gas_starts_warm(const struct simulation *simulation, const struct gas *gas)
 {
     const struct simulation_case *input = simulation->problem->input;
-    const struct heat any = {1.0, 1.0, 1.0}; /* the curve of a gas does not depend on it */
-    bool warm = true;
+    const struct heat any = {1.0, 1.0, 1.0};  /* the curve of a gas does not depend on it */
+    bool warm = eos_traits(&gas->eos[1]).gas; /* the curve of a liquid is not that of 0 K */
     for (int b = 0; b < input->bodies.count; b++) {
         struct point point;
         if (case_body(input, b)->material_index == gas->material[1] &&

@@ -123,6 +123,11 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     gas->unburnt = gas->layout.lit;
     gas->layout.two = gas->material[1] != gas->material[0];
     gas->layout.marked = gas->layout.two && !gas->second_order;
+    for (int k = 0; k < 2; k++) {
+        gas->floor[k] =
+            gas_floor_of(&simulation->problem->material[gas->material[k]], gas->layout.two);
+        gas->liquid |= gas->floor[k] > -(double)INFINITY;
+    }
     gas->thaws = gas->layout.two && gas_starts_warm(simulation, gas);
     gas->layout.blocked = place_blocks_any(&simulation->problem->place);
     gas->afterburn = simulation->problem->material[gas->material[1]].afterburn;
@@ -187,7 +192,9 @@ struct gas_closure gas_closure_of(const struct gas *gas)
     const struct gas_closure closure = {.eos = &gas->eos[0],
                                         .other = layout->two ? &gas->eos[1] : NULL,
                                         .lit = gas->unburnt ? &gas->eos[layout->explosive] : NULL,
-                                        .marked = layout->marked};
+                                        .marked = layout->marked,
+                                        .liquid = gas->liquid,
+                                        .floor = {gas->floor[0], gas->floor[1]}};
     return closure;
 }
 

@@ -51,6 +51,8 @@ struct gas {
     double mixing_heat;     /* J/kg of products that become air */
     double detonation;      /* its speed, m/s, of an explosive that is lit */
     bool unburnt;           /* some of it is, on some rank */
+    bool liquid;            /* a material is a liquid whose pressure has a floor */
+    double floor[2];        /* of the pressure, Pa; -INFINITY: none */
     bool thaws;             /* the second material is never colder than 0 K */
     int round;              /* the power of x in a volume: 0 unless x is a radius */
     struct cell_halo halo;
@@ -86,6 +88,10 @@ struct error *gas_derive(struct gas *gas, const struct simulation *simulation, c
 /* The materials of the bodies, the one of lower reference density first; the same twice where there
  * is one. */
 void gas_find_materials(const struct simulation *simulation, int material[2]);
+
+/* The pressure, Pa, that MATERIAL does not fall below, beside ANOTHER or alone; -INFINITY: it may
+ * fall to any. */
+double gas_floor_of(const struct material *material, bool another);
 
 /* What the gas solver cannot do of a case, located. */
 void gas_refuse(const struct simulation *simulation, const struct gas_parameters *parameters,

@@ -58,6 +58,12 @@ BOLIDE_INLINE void row_states(const struct gas_row *row, const struct gas_conten
         fall[k] = gamma > 0.0 ? (1.0 - GAS_LEAST) * square_of_sound / (gamma * (gamma + 1.0))
                               : (double)INFINITY;
     }
+    if (row->closure.liquid)
+        FOR_ROW (k, first, last)
+            states->lift[k] = values.lift[k];
+    if (row->closure.liquid && content->kind) /* the floor of the pressure serves */
+        FOR_ROW (k, first, last)
+            fall[k] = content->kind[k] == CONTENT_BOTH ? (double)INFINITY : fall[k];
 }
 
 /* On the low and the high faces of cells -1 .. cells, half a step of R = dt/h on: of face k the
@@ -102,6 +108,23 @@ BOLIDE_INLINE void row_faces(const struct gas_row *row, const struct row_states 
         push[k] = cell->of.of[PRIMITIVE_PRESSURE][k] - 0.5 * r * rate[PRIMITIVE_PRESSURE][k];
 }
 
+/* The same where a floor raises the pressure of the cell. What liquid alone has flows with it; the
+ * energy that a mixture lacks does. */
+static inline void row_close_cavities(const struct gas_content *content,
+                                      const struct row_states *cell, int offset, int cells,
+                                      const struct row_values *values, struct row_states *face)
+{
+    FOR_ROW (k, 0, cells) {
+        const double lift = cell->lift[k + offset];
+        const bool mixed = content->kind && content->kind[k] == CONTENT_BOTH;
+        if (!(lift > 0.0))
+            continue;
+        face->energy[k] =
+            mixed ? face->energy[k] - lift / values->dp_de[k] : cell->energy[k + offset];
+        face->sound[k] = cell->sound[k + offset];
+    }
+}
+
 /* Energies and sound speeds of the states FACE on faces 0 .. cells, whose content is CONTENT,
  * beside cells that are OFFSET from them. A cell of two materials may have the light one alone at
  * its face: sound is that of all of it. */
@@ -109,8 +132,10 @@ BOLIDE_INLINE void row_close_faces(const struct gas_row *row, const struct gas_c
                                    const struct row_states *cell, int offset,
                                    struct row_states *face)
 {
+    struct gas_closure closure = row->closure;
     struct row_values values;
-    gas_evaluate(&row->closure, content, face->of.of[PRIMITIVE_DENSITY], cell->energy + offset, 0,
+    closure.liquid = false; /* a floor has no inverse */
+    gas_evaluate(&closure, content, face->of.of[PRIMITIVE_DENSITY], cell->energy + offset, 0,
                  row->cells, &values);
     FOR_ROW (k, 0, row->cells) {
         const double density = face->of.of[PRIMITIVE_DENSITY][k],
@@ -124,6 +149,8 @@ BOLIDE_INLINE void row_close_faces(const struct gas_row *row, const struct gas_c
         FOR_ROW (k, 0, row->cells)
             if (content->kind[k] == CONTENT_BOTH)
                 face->sound[k] = cell->sound[k + offset];
+    if (row->closure.liquid)
+        row_close_cavities(content, cell, offset, row->cells, &values, face);
 }
 
 /* Puts HLL fluxes through the faces 0 .. cells along a strong shock across which the gas flows at a
@@ -316,6 +343,8 @@ static inline void row_muscl_hancock(struct gas_row *row, double r, struct gas_n
         return;
     }
     row->closure.eos = most > 0.0 ? both.other : both.eos;
+    row->closure.floor[0] = both.floor[most > 0.0];
+    row->closure.liquid = both.liquid && row->closure.floor[0] > -(double)INFINITY;
     row->closure.other = NULL;
     row_sweep(row, NULL, r, flux);
     row->closure = both;

@@ -74,6 +74,21 @@ static bool is_linear(const struct eos *eos)
     return true;
 }
 
+static bool cavitates(const struct material *material)
+{
+    return failure_traits(&material->failure).of_fluids && !eos_history(&material->eos) &&
+           !material_burns(material);
+}
+
+double gas_floor_of(const struct material *material, bool another)
+{
+    const struct eos_traits traits = eos_traits(&material->eos);
+    const double least = failure_traits(&material->failure).least;
+    return traits.gas || material_burns(material) ? -(double)INFINITY
+           : another                              ? maximum(least, 0.0)
+                                                  : least;
+}
+
 /* A fluid whose pressure follows from its density and energy alone. */
 static const char *refuse_material(const struct material *material)
 {
@@ -85,7 +100,7 @@ static const char *refuse_material(const struct material *material)
     if (material_burns(material) && !is_linear(&material->eos))
         return "the solver gas burns explosives whose products have a pressure that grows in "
                "proportion to the energy: choose `eos: jwl`";
-    if (material_history(material) && !material_is_lit(material))
+    if (material_history(material) && !material_is_lit(material) && !cavitates(material))
         return "the solver gas keeps no history of a material: choose another equation of state";
     return NULL;
 }
@@ -115,11 +130,13 @@ static void refuse_materials(const struct simulation *simulation,
     for (int k = 0; k <= two; k++) {
         const char *text = refuse_material(&of[material[k]]);
         const struct eos *eos = &of[material[k]].eos;
-        if (!text && two && !(eos_traits(eos).gas && is_linear(eos)))
-            text =
-                "beside a second material the solver gas computes gases that never pull and whose "
-                "pressure grows in proportion to the energy: ideal-gas, noble-abel and jwl of "
-                "products";
+        if (!text && two && !((eos_traits(eos).gas || eos_traits(eos).stiffened) && is_linear(eos)))
+            text = "beside a second material the solver gas computes fluids whose pressure grows "
+                   "in proportion to the energy: ideal-gas, noble-abel, stiffened-gas and jwl of "
+                   "products";
+        if (!text && two && !eos_traits(eos).gas && !material_burns(&of[material[k]]) &&
+            parameters->method.index == GAS_LAX_WENDROFF)
+            text = "lax-wendroff divides two gases: leave the method out beside a liquid";
         if (text)
             finding_add(findings, FINDING_WRONG, "materials", input->materials.names[material[k]],
                         "%s", text);
@@ -143,6 +160,9 @@ static void refuse_materials(const struct simulation *simulation,
         finding_add(findings, FINDING_WRONG, "materials", input->materials.names[material[0]],
                     "products burn in a second material, the air: leave "
                     "`afterburn` out, or fill the space around them");
+    if (two && of[material[1]].afterburn.energy > 0.0 && !eos_traits(&of[material[0]].eos).gas)
+        finding_add(findings, FINDING_WRONG, "materials", input->materials.names[material[1]],
+                    "products burn in air, not in a liquid: leave `afterburn` out");
     const bool marked = parameters->method.index == GAS_LAX_WENDROFF;
     if ((lit[0] || lit[1]) && marked && !parameters->burnt)
         finding_add(findings, FINDING_WRONG, "solver", NULL,

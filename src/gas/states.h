@@ -14,6 +14,8 @@ enum { PRIMITIVE_DENSITY, PRIMITIVE_VELOCITY, PRIMITIVE_PRESSURE = 4 };
 struct row_states {
     struct gas_numbers of;
     double energy[ROW_ROOM], sound[ROW_ROOM];
+    double
+        lift[ROW_ROOM]; /* of cells: by how much a floor raises the pressure, where floors count */
 };
 
 /* How far density and specific energy may fall at once: the density to this part of itself, the

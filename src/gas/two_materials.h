@@ -284,7 +284,7 @@ static inline void parts_mark_lost(const struct gas_row *row, const struct row_p
             own[c] - part * (parts->flux[PART_FRACTION][k] - own[c] * parts->speed[k]);
         const bool stays = half[GAS_DENSITY] > GAS_LEAST * row->u.of[GAS_DENSITY][c];
         lost[k] = stays ? 0.0 : 1.0;
-        if (stays && 1.0 - fraction > 0.0 && fraction > 0.0)
+        if (stays && !row->closure.liquid && 1.0 - fraction > 0.0 && fraction > 0.0)
             gas_add_mixture(&row->closure, mass, fraction, row->burnt[c],
                             half[GAS_ENERGY] - kinetic, k, &mixtures);
     }
@@ -313,7 +313,7 @@ APART void parts_advance(struct gas_row *row, struct row_parts *parts,
     parts_clean(row);
     if (row->thaws)
         parts_thaw(row);
-    if (!row->closure.lit)
+    if (!row->closure.lit && !row->closure.liquid)
         row->spent |= parts_are_spent(row, cell);
 }
 

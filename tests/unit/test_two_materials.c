@@ -9,75 +9,21 @@
 #include <cmocka.h>
 
 #include "dice.h"
-#include "gas/gas_internal.h"
-#include "gas/muscl_hancock.h"
+#include "ring.h"
 
-enum { CELLS = 200, NUMBERS = GAS_NUMBERS + PARTS, STEPS = 1000 };
-
-/* rho e, J/m^3, at a PRESSURE. */
-static double mixture_energy(const struct mixture *mixture, double pressure)
-{
-    const struct mixture_part *part = mixture->part;
-    return part[0].weight * (pressure - part[0].cold) + part[1].weight * (pressure - part[1].cold);
-}
+enum { STEPS = 1000 };
 
 static const double pressure = 1e8, courant = 0.8, whole[2] = {1.0, 1.0};
 
-struct ring {
-    struct eos eos[2];
-    double speed; /* of all of it, m/s */
-    double u[NUMBERS][CELLS];
-};
-
+/* Products in a quarter of a ring of air. */
 static struct ring make_ring(double speed, double density)
 {
     static const struct eos_jwl products = EOS_jwl_SAMPLE;
     const struct eos_ideal_gas air = {1.0, 1.4};
-    struct ring ring = {{eos_make_ideal_gas(&air), eos_make_jwl(&products)}, speed, {{0.0}}};
-    const struct eos *const eos[2] = {&ring.eos[0], &ring.eos[1]};
-    const double densities[2] = {1.0, density};
-    for (int c = 0; c < CELLS; c++) {
-        const double fraction = c == 50 ? 0.3 : c > 50 && c < 100 ? 1.0 : 0.0;
-        const struct mixture mixture = mixture_of(eos, densities, fraction, whole);
-        ring.u[GAS_DENSITY][c] = mixture.density;
-        ring.u[GAS_MOMENTUM][c] = mixture.density * speed;
-        ring.u[GAS_ENERGY][c] =
-            mixture_energy(&mixture, pressure) + 0.5 * mixture.density * square(speed);
-        ring.u[GAS_NUMBERS + PART_MASS][c] = fraction * density;
-        ring.u[GAS_NUMBERS + PART_FRACTION][c] = fraction;
-    }
+    struct ring ring = {
+        {eos_make_ideal_gas(&air), eos_make_jwl(&products)}, false, {0.0, 0.0}, speed, {{0.0}}};
+    ring_fill(&ring, (const double[2]){1.0, density}, pressure);
     return ring;
-}
-
-/* A sweep in rows of ROWS cells at most. */
-static void sweep(struct ring *ring, int rows, double r)
-{
-    struct ring next = *ring;
-    for (int first = 0; first < CELLS; first += rows) {
-        struct gas_row row = {.closure = {.eos = &ring->eos[0], .other = &ring->eos[1]}};
-        struct gas_numbers flux;
-        row.cells = CELLS - first < rows ? CELLS - first : rows;
-        FOR_ROW (k, -2, row.cells + 1) {
-            const int c = (first + k - ROW_GHOSTS + CELLS) % CELLS;
-            for (int n = 0; n < NUMBERS; n++)
-                *(n < GAS_NUMBERS ? &row.u.of[n][k] : &row.part[n - GAS_NUMBERS][k]) =
-                    ring->u[n][c];
-        }
-        row_muscl_hancock(&row, r, &flux);
-        FOR_ROW (k, 0, row.cells - 1)
-            for (int n = 0; n < NUMBERS; n++)
-                next.u[n][first + k - ROW_GHOSTS] =
-                    n < GAS_NUMBERS ? row.u.of[n][k] : row.part[n - GAS_NUMBERS][k];
-    }
-    *ring = next;
-}
-
-static double sum_of(const struct ring *ring, int n)
-{
-    double sum = 0.0;
-    for (int c = 0; c < CELLS; c++)
-        sum += ring->u[n][c];
-    return sum;
 }
 
 static void a_mixture_has_the_pressure_of_both_materials(void **state)
@@ -170,7 +116,7 @@ static void a_contact_of_two_materials_keeps_pressure_and_width(void **state)
         const struct ring start = ring;
         const struct eos *const eos[2] = {&ring.eos[0], &ring.eos[1]};
         for (int step = 0; step < STEPS; step++)
-            sweep(&ring, ROW_CELLS, courant / (12e3 + fabs(ring.speed)));
+            ring_sweep(&ring, ROW_CELLS, courant / (12e3 + fabs(ring.speed)));
         int between = 0;
         for (int c = 0; c < CELLS; c++) {
             const double fraction = ring.u[GAS_NUMBERS + PART_FRACTION][c],
@@ -186,12 +132,13 @@ static void a_contact_of_two_materials_keeps_pressure_and_width(void **state)
         if (between > 2 * 4)
             fail_msg("%d cells are in both contacts", between);
         for (int n = 0; n < NUMBERS; n++) {
-            const double all = sum_of(&start, n);
-            if (!(fabs(sum_of(&ring, n) - all) <= 1e-12 * fabs(all)))
-                fail_msg("number %d: %.17g, before %.17g", n, sum_of(&ring, n), all);
+            const double all = ring_sum(&start, n);
+            if (!(fabs(ring_sum(&ring, n) - all) <= 1e-12 * fabs(all)))
+                fail_msg("number %d: %.17g, before %.17g", n, ring_sum(&ring, n), all);
         }
-        const double air = sum_of(&start, GAS_DENSITY) - sum_of(&start, GAS_NUMBERS + PART_MASS);
-        const double now = sum_of(&ring, GAS_DENSITY) - sum_of(&ring, GAS_NUMBERS + PART_MASS);
+        const double air =
+            ring_sum(&start, GAS_DENSITY) - ring_sum(&start, GAS_NUMBERS + PART_MASS);
+        const double now = ring_sum(&ring, GAS_DENSITY) - ring_sum(&ring, GAS_NUMBERS + PART_MASS);
         if (!(fabs(now - air) <= 1e-12 * air))
             fail_msg("mass of air: %.17g, before %.17g", now, air);
     }
@@ -226,7 +173,7 @@ static void rows_of_any_length_give_the_same_bits(void **state)
         for (int c = 50; c < 100; c++) /* it expands */
             ring[k].u[GAS_ENERGY][c] += 2e9;
         for (int step = 0; step < 100; step++)
-            sweep(&ring[k], k ? 7 : ROW_CELLS, 0.2 / 12e3);
+            ring_sweep(&ring[k], k ? 7 : ROW_CELLS, 0.2 / 12e3);
     }
     assert_memory_equal(ring[0].u, ring[1].u, sizeof ring[0].u);
 }

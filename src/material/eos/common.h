@@ -18,6 +18,8 @@ struct eos_traits {
     double ratio_of_heats;
     /* A gas: however far it expands it never pulls. */
     bool gas;
+    /* A liquid like a gas: linear in the energy, with waves at any pressure above zero. */
+    bool stiffened;
     /* Of rho/rho_0, up to which the model is meant; a run warns beyond it. INFINITY: any, as of
      * gases. */
     double largest_compression;
@@ -35,7 +37,7 @@ struct eos_traits {
 /* The traits of a model that says no more. */
 BOLIDE_INLINE struct eos_traits eos_default_traits(void)
 {
-    struct eos_traits traits = {NAN, NAN, NAN, false, 4.0, false, 0.0, 0, NULL, NULL};
+    struct eos_traits traits = {NAN, NAN, NAN, false, false, 4.0, false, 0.0, 0, NULL, NULL};
     return traits;
 }
 

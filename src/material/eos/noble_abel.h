@@ -58,6 +58,7 @@ BOLIDE_INLINE struct eos_traits eos_noble_abel_traits(const struct eos_noble_abe
 {
     struct eos_traits traits = eos_default_traits();
     traits.gas = gas->pressure == 0.0;
+    traits.stiffened = !traits.gas;
     traits.largest_compression = INFINITY;
     double free = 1.0 - gas->covolume * gas->density;
     /* the limit of strong shocks in a gas, that of weak ones in a liquid, which is stiff */

@@ -47,6 +47,7 @@ BOLIDE_INLINE struct eos_value eos_stiffened_gas(const struct eos_stiffened_gas 
 BOLIDE_INLINE struct eos_traits eos_stiffened_gas_traits(const struct eos_stiffened_gas *gas)
 {
     struct eos_traits traits = eos_default_traits();
+    traits.stiffened = true;
     traits.shock_slope = 0.25 * (gas->gamma + 1.0); /* of a weak shock: a liquid is stiff */
     return traits;
 }

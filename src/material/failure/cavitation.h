@@ -9,13 +9,17 @@
 struct failure_cavitation {
     FAILURE_MEMBERS
     double tension; /* Pa */
+    double vapour;  /* Pa, the pressure in bubbles, where they have one */
 };
 
 #define FAILURE_cavitation_NAME "cavitation"
 #define FAILURE_cavitation_HELP "a liquid that opens bubbles where it is in tension"
-#define FAILURE_cavitation_PARAMETERS(T)           \
-    NUMBER(T, tension, "Pa", "0 Pa", NOT_NEGATIVE, \
-           "tension that it holds until bubbles open; water with dissolved air: none")
+#define FAILURE_cavitation_PARAMETERS(T)                                               \
+    NUMBER(T, tension, "Pa", "0 Pa", NOT_NEGATIVE,                                     \
+           "tension that it holds until bubbles open; water with dissolved air: none") \
+    NUMBER(T, vapour, "Pa", "0 Pa", NOT_NEGATIVE,                                      \
+           "vapour pressure: with the solver gas the pressure stays above `vapour` - " \
+           "`tension`; other solvers do not use it")
 
 BOLIDE_INLINE double failure_cavitation(const struct failure_cavitation *cavitation,
                                         const struct failing *point, double damage)
@@ -27,7 +31,7 @@ BOLIDE_INLINE struct failure_traits failure_cavitation_traits(
     const struct failure_cavitation *cavitation)
 {
     struct failure_traits traits = failure_default_traits();
-    (void)cavitation;
+    traits.least = cavitation->vapour - cavitation->tension;
     traits.batched = true;
     traits.limits_tension = true;
     traits.of_fluids = true;

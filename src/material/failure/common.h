@@ -63,6 +63,7 @@ struct failure_traits {
     bool batched;        /* of many points at once: it does not ask for sound and yield */
     bool at_contacts;    /* pairs of particles break, points do not */
     bool of_fluids;      /* for material without strength, and for no other */
+    double least;        /* where bubbles open, and as long as they are: the pressure of a liquid */
     double weakening;    /* fraction of the yield stress that damage has taken at failure */
     struct void_growth growth;
     /* Why its parameters do not go together, and the parameter to name; NULL when they do. */
@@ -71,7 +72,7 @@ struct failure_traits {
 
 BOLIDE_INLINE struct failure_traits failure_default_traits(void)
 {
-    struct failure_traits traits = {.wrong = NULL};
+    struct failure_traits traits = {.least = -(double)INFINITY, .wrong = NULL};
     return traits;
 }
 
