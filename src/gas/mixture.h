@@ -153,6 +153,31 @@ static inline double mixture_thawed(const struct eos *const eos[2], const double
     return found;
 }
 
+/* The fraction of the second material at which the pressure is FLOOR, where it is less at FRACTION
+ * and LIQUID, 0 or 1, is what pulls: bubbles of the gas around it open. The gas thins to MOST_THIN of
+ * its reference density at most; FRACTION stays where that does not help. ENERGY and MASS as
+ * above. */
+static inline double mixture_opened(const struct eos *const eos[2], const double mass[2],
+                                    double fraction, double energy, int liquid, double floor)
+{
+    enum { HALVINGS = 40 };
+    static const double all[2] = {1.0, 1.0}, most_thin = 1e-3;
+    const double gas = mass[1 - liquid] / (most_thin * eos_reference_density(eos[1 - liquid])),
+                 own = liquid ? fraction : 1.0 - fraction,
+                 least = maximum(1.0 - gas, 1e-3 * own); /* of the liquid's volume */
+    double low = least, high = own;
+    if (!(least < own))
+        return fraction;
+    for (int k = 0; k < HALVINGS; k++) {
+        const double at = 0.5 * (low + high), part = liquid ? at : 1.0 - at,
+                     density[2] = {mixture_density(eos[0], mass[0], 1.0 - part),
+                                   mixture_density(eos[1], mass[1], part)};
+        const struct mixture mixture = mixture_of(eos, density, part, all);
+        *(mixture_pressure(&mixture, energy) < floor ? &high : &low) = at;
+    }
+    return liquid ? low : 1.0 - low;
+}
+
 /* G = (dp/de)/rho at given fractions. */
 BOLIDE_INLINE double mixture_gamma(const struct mixture *mixture)
 {

@@ -313,6 +313,8 @@ APART void parts_advance(struct gas_row *row, struct row_parts *parts,
     parts_clean(row);
     if (row->thaws)
         parts_thaw(row);
+    if (row->closure.liquid)
+        parts_open(row);
     if (!row->closure.lit && !row->closure.liquid)
         row->spent |= parts_are_spent(row, cell);
 }

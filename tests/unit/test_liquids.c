@@ -147,6 +147,29 @@ static void no_pressure_of_a_liquid_is_below_its_floor(void **state)
     }
 }
 
+/* The liquid of a cell that is stretched by 2 % takes its own density again, and the gas the rest. */
+static void bubbles_open_in_a_cell_that_would_pull(void **state)
+{
+    (void)state;
+    const struct ring ring = make_ring(of_water(), 0.0, normal);
+    const struct eos *const eos[2] = {&ring.eos[0], &ring.eos[1]};
+    const double whole[2] = {1.0, 1.0};
+    for (double fraction = 0.05; fraction < 0.999; fraction += 0.07) {
+        const double stretched[2] = {0.98 * densities[0], 0.98 * densities[1]},
+                     mass[2] = {(1.0 - fraction) * stretched[0], fraction * stretched[1]};
+        const struct mixture before = mixture_of(eos, densities, fraction, whole),
+                             pulled = mixture_of(eos, stretched, fraction, whole);
+        const double energy = 0.98 * mixture_energy(&before, normal);
+        assert_true(mixture_pressure(&pulled, energy) < 0.0);
+        const double found = mixture_opened(eos, mass, fraction, energy, 1, vapour),
+                     own[2] = {mass[0] / (1.0 - found), mass[1] / found};
+        const struct mixture opened = mixture_of(eos, own, found, whole);
+        assert_true(found < fraction && found > 0.97 * fraction);
+        assert_close(mixture_pressure(&opened, energy), vapour, 1e-3);
+        assert_close(own[1], densities[1], 1e-2); /* what gas loses heats it */
+    }
+}
+
 static void rows_of_any_length_give_the_same_bits(void **state)
 {
     (void)state;
@@ -168,6 +191,7 @@ int main(void)
         cmocka_unit_test(a_surface_of_water_keeps_pressure_and_velocity),
         cmocka_unit_test(water_that_is_pulled_apart_keeps_its_energy),
         cmocka_unit_test(no_pressure_of_a_liquid_is_below_its_floor),
+        cmocka_unit_test(bubbles_open_in_a_cell_that_would_pull),
         cmocka_unit_test(rows_of_any_length_give_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
