@@ -2,7 +2,8 @@
 import random
 
 WATERS = {"stiffened": "library: water-stiffened",
-          "stiff": "eos: {stiffened-gas: {density: 1000 kg/m^3, sound: 1480 m/s, gamma: 7.15}}",
+          "stiff": "eos: {stiffened-gas: {density: 1000 kg/m^3, sound: 1480 m/s, gamma: 7.15}}, "
+                   "failure: {cavitation: {}}",
           "noble-abel": "eos: {noble-abel: {density: 1000 kg/m^3, gamma: 1.19, covolume: "
                         "6.61e-4 m^3/kg, pressure: 702.8 MPa, energy: -1177788 J/kg}}, "
                         "failure: {cavitation: {vapour: 10 kPa}}"}

@@ -246,14 +246,16 @@ static const struct answer answers[] = {
      "bodies. A shock tube beside its exact solution: see the page below; docs/gas.md has\n"
      "the method.",
      "tasks/shock-tube.md"},
-    {" underwater underwater.explosion undex water.shock ",
-     "Water with `library: water-shock` around an explosive, with SPH or MPM, in 2-D, axisymmetry\n"
-     "or 3-D. `solver: gas` has no liquids, so that spherical 1-D is not available, and a long\n"
-     "pulsation of the bubble takes too many steps.",
-     "materials.md"},
+    {" underwater underwater.explosion undex water.shock cole free.surface stiffened.gas liquid ",
+     "Water with `library: water-stiffened` in `solver: gas`, alone, around an explosive or "
+     "beside\n"
+     "air: peaks and the period of the bubble with `geometry: spherical` in seconds. SPH and MPM\n"
+     "take `library: water-shock`, in 2-D, axisymmetry or 3-D, for structures in the water.",
+     "tasks/underwater-charge.md"},
     {" cavitation cavity.in.liquid ram hydrodynamic.ram hydraulic.ram ",
-     "A liquid with `failure: cavitation` opens bubbles where it would be in tension, with SPH or\n"
-     "MPM; `library: water-shock` has it. They bear no pressure: a vapour is not available.",
+     "A liquid with `failure: cavitation` opens bubbles where it would be in tension: with SPH or\n"
+     "MPM `library: water-shock`, whose bubbles bear no pressure, with `solver: gas` `library:\n"
+     "water-stiffened`, whose pressure does not fall below `vapour`.",
      "failure.md"},
     {" bubble gas.bubble shock.bubble helium sf6 richtmyer meshkov ",
      "Two gases with `solver: gas`, library: air, helium, sf6. The shock comes from a body of gas\n"

@@ -154,17 +154,19 @@ static inline double mixture_thawed(const struct eos *const eos[2], const double
 }
 
 /* The fraction of the second material at which the pressure is FLOOR, where it is less at FRACTION
- * and LIQUID, 0 or 1, is what pulls: bubbles of the gas around it open. The gas thins to MOST_THIN of
- * its reference density at most; FRACTION stays where that does not help. ENERGY and MASS as
+ * and LIQUID, 0 or 1, is what pulls: bubbles of the gas around it open. The gas thins to a
+ * thousandth of its reference density at most, and the liquid becomes little denser than its own;
+ * FRACTION stays where that does not help. ENERGY and MASS as
  * above. */
 static inline double mixture_opened(const struct eos *const eos[2], const double mass[2],
                                     double fraction, double energy, int liquid, double floor)
 {
     enum { HALVINGS = 40 };
-    static const double all[2] = {1.0, 1.0}, most_thin = 1e-3;
+    static const double all[2] = {1.0, 1.0}, most_thin = 1e-3, most_dense = 1.1;
     const double gas = mass[1 - liquid] / (most_thin * eos_reference_density(eos[1 - liquid])),
+                 dense = mass[liquid] / (most_dense * eos_reference_density(eos[liquid])),
                  own = liquid ? fraction : 1.0 - fraction,
-                 least = maximum(1.0 - gas, 1e-3 * own); /* of the liquid's volume */
+                 least = maximum(1.0 - gas, dense); /* of the liquid's volume */
     double low = least, high = own;
     if (!(least < own))
         return fraction;

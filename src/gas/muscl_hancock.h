@@ -28,6 +28,24 @@ BOLIDE_INLINE double row_sound_square(const struct row_values *values, double pr
     return eos_sound_square(pressure, values->dp_drho[k], values->dp_de[k], density);
 }
 
+/* What a floor of the pressure adds in cells, and no bounds of the energy where it serves. */
+static inline void row_find_cavities(const struct gas_row *row, const struct gas_content *content,
+                                     const struct row_values *values, struct row_states *states,
+                                     double *fall)
+{
+    const bool second = row->closure.other && row->closure.floor[1] > -(double)INFINITY;
+    FOR_ROW (k, -2, row->cells + 1) {
+        states->lift[k] = values->lift[k];
+        if (!content->kind || content->kind[k] != CONTENT_BOTH)
+            continue;
+        const double density = states->of.of[PRIMITIVE_DENSITY][k], mass = row->part[PART_MASS][k],
+                     liquid = second ? mass : density - mass;
+        states->lacks[k] =
+            liquid > 0.0 ? values->lift[k] * density / (values->dp_de[k] * liquid) : 0.0;
+        fall[k] = (double)INFINITY;
+    }
+}
+
 /* The states of cells -2 .. cells + 1, and by how much their energies may FALL. */
 BOLIDE_INLINE void row_states(const struct gas_row *row, const struct gas_content *content,
                               struct row_states *states, double *fall)
@@ -59,11 +77,7 @@ BOLIDE_INLINE void row_states(const struct gas_row *row, const struct gas_conten
                               : (double)INFINITY;
     }
     if (row->closure.liquid)
-        FOR_ROW (k, first, last)
-            states->lift[k] = values.lift[k];
-    if (row->closure.liquid && content->kind) /* the floor of the pressure serves */
-        FOR_ROW (k, first, last)
-            fall[k] = content->kind[k] == CONTENT_BOTH ? (double)INFINITY : fall[k];
+        row_find_cavities(row, content, &values, states, fall);
 }
 
 /* On the low and the high faces of cells -1 .. cells, half a step of R = dt/h on: of face k the
@@ -108,20 +122,23 @@ BOLIDE_INLINE void row_faces(const struct gas_row *row, const struct row_states 
         push[k] = cell->of.of[PRIMITIVE_PRESSURE][k] - 0.5 * r * rate[PRIMITIVE_PRESSURE][k];
 }
 
-/* The same where a floor raises the pressure of the cell. What liquid alone has flows with it; the
- * energy that a mixture lacks does. */
-static inline void row_close_cavities(const struct gas_content *content,
-                                      const struct row_states *cell, int offset, int cells,
-                                      const struct row_values *values, struct row_states *face)
+/* The same where a floor raises the pressure of the cell: the energy that its liquid lacks for it
+ * flows with the liquid. SECOND is the mass of the second material on the faces. */
+static inline void row_close_cavities(const struct gas_row *row, const struct gas_content *content,
+                                      const struct row_states *cell, int offset,
+                                      const double *second, struct row_states *face)
 {
-    FOR_ROW (k, 0, cells) {
-        const double lift = cell->lift[k + offset];
-        const bool mixed = content->kind && content->kind[k] == CONTENT_BOTH;
-        if (!(lift > 0.0))
+    const bool of_second = row->closure.other && row->closure.floor[1] > -(double)INFINITY;
+    FOR_ROW (k, 0, row->cells) {
+        const double density = face->of.of[PRIMITIVE_DENSITY][k];
+        if (!(cell->lift[k + offset] > 0.0))
             continue;
-        face->energy[k] =
-            mixed ? face->energy[k] - lift / values->dp_de[k] : cell->energy[k + offset];
         face->sound[k] = cell->sound[k + offset];
+        if (!content->kind || content->kind[k] != CONTENT_BOTH)
+            face->energy[k] = cell->energy[k + offset];
+        else
+            face->energy[k] -=
+                cell->lacks[k + offset] * (of_second ? second[k] : density - second[k]) / density;
     }
 }
 
@@ -129,7 +146,7 @@ static inline void row_close_cavities(const struct gas_content *content,
  * beside cells that are OFFSET from them. A cell of two materials may have the light one alone at
  * its face: sound is that of all of it. */
 BOLIDE_INLINE void row_close_faces(const struct gas_row *row, const struct gas_content *content,
-                                   const struct row_states *cell, int offset,
+                                   const struct row_states *cell, int offset, const double *second,
                                    struct row_states *face)
 {
     struct gas_closure closure = row->closure;
@@ -150,7 +167,7 @@ BOLIDE_INLINE void row_close_faces(const struct gas_row *row, const struct gas_c
             if (content->kind[k] == CONTENT_BOTH)
                 face->sound[k] = cell->sound[k + offset];
     if (row->closure.liquid)
-        row_close_cavities(content, cell, offset, row->cells, &values, face);
+        row_close_cavities(row, content, cell, offset, second, face);
 }
 
 /* Puts HLL fluxes through the faces 0 .. cells along a strong shock across which the gas flows at a
@@ -275,8 +292,8 @@ BOLIDE_INLINE bool row_find_fluxes(struct gas_row *row, struct row_parts *parts,
     row_faces(row, cell, r, &below, &above, push);
     if (parts)
         parts_faces(row, cell, r, parts, &below, &above);
-    row_close_faces(row, &below_content, cell, -1, &below);
-    row_close_faces(row, &above_content, cell, 0, &above);
+    row_close_faces(row, &below_content, cell, -1, parts ? parts->below[PART_MASS] : NULL, &below);
+    row_close_faces(row, &above_content, cell, 0, parts ? parts->above[PART_MASS] : NULL, &above);
     if (parts)
         parts_fluxes(row, cell, &below, &above, parts, flux);
     else

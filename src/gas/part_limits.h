@@ -42,8 +42,8 @@ static inline void parts_open(struct gas_row *row)
             continue;
         for (int n = GAS_MOMENTUM; n < GAS_ENERGY; n++)
             kinetic += 0.5 * square(row->u.of[n][k]) / density;
-        gas_add_mixture(closure, mass, fraction, row->burnt[k],
-                        row->u.of[GAS_ENERGY][k] - kinetic, k, &mixtures);
+        gas_add_mixture(closure, mass, fraction, row->burnt[k], row->u.of[GAS_ENERGY][k] - kinetic,
+                        k, &mixtures);
     }
     mixtures_find(&mixtures, eos);
     for (int i = 0; i < mixtures.count; i++) {

@@ -14,8 +14,9 @@ enum { PRIMITIVE_DENSITY, PRIMITIVE_VELOCITY, PRIMITIVE_PRESSURE = 4 };
 struct row_states {
     struct gas_numbers of;
     double energy[ROW_ROOM], sound[ROW_ROOM];
-    double
-        lift[ROW_ROOM]; /* of cells: by how much a floor raises the pressure, where floors count */
+    /* of cells where floors count: by how much one raises the pressure, Pa, and in cells of both
+     * materials the energy that the liquid lacks for it, J/kg of it */
+    double lift[ROW_ROOM], lacks[ROW_ROOM];
 };
 
 /* How far density and specific energy may fall at once: the density to this part of itself, the

@@ -147,7 +147,7 @@ static void no_pressure_of_a_liquid_is_below_its_floor(void **state)
     }
 }
 
-/* The liquid of a cell that is stretched by 2 % takes its own density again, and the gas the rest. */
+/* The liquid of a cell stretched by 2 % takes its own density again, and the gas the rest. */
 static void bubbles_open_in_a_cell_that_would_pull(void **state)
 {
     (void)state;
