@@ -1,6 +1,6 @@
-/* The walls of a honeycomb in a box: the places that are at most half of a wall's thickness from the
- * nearest edge between two cells. The cells are those of Voronoi about centers on a triangular or a
- * square lattice. */
+/* The walls of a honeycomb in a box: the places that are at most half of a wall's thickness from
+ * the nearest edge between two cells. The cells are those of Voronoi about centers on a triangular
+ * or a square lattice. */
 #include "shape/kinds.h"
 
 static const char *const cell_names[] = {"hexagon", "square", NULL};
