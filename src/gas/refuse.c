@@ -74,9 +74,11 @@ static bool is_linear(const struct eos *eos)
     return true;
 }
 
+/* Whether it is a liquid whose pressure has a floor, so that the history of its failure is not
+ * needed. */
 static bool cavitates(const struct material *material)
 {
-    return failure_traits(&material->failure).of_fluids && !eos_history(&material->eos) &&
+    return failure_traits(&material->failure).of_fluids && eos_traits(&material->eos).stiffened &&
            !material_burns(material);
 }
 
@@ -105,7 +107,11 @@ static const char *refuse_material(const struct material *material)
     return NULL;
 }
 
-bool gas_computes(const struct material *material) { return !refuse_material(material); }
+/* Couplings know no floors. */
+bool gas_computes(const struct material *material)
+{
+    return !refuse_material(material) && !material_fails(material);
+}
 
 /* Two materials at most. */
 static void refuse_materials(const struct simulation *simulation,
