@@ -137,9 +137,10 @@ static void refuse_materials(const struct simulation *simulation,
         const char *text = refuse_material(&of[material[k]]);
         const struct eos *eos = &of[material[k]].eos;
         if (!text && two && !((eos_traits(eos).gas || eos_traits(eos).stiffened) && is_linear(eos)))
-            text = "beside a second material the solver gas computes fluids whose pressure grows "
-                   "in proportion to the energy: ideal-gas, noble-abel, stiffened-gas and jwl of "
-                   "products";
+            text = "beside a second material the solver gas computes gases that never pull, and "
+                   "liquids, "
+                   "whose pressure grows in proportion to the energy: ideal-gas, noble-abel, "
+                   "stiffened-gas and jwl of products";
         if (!text && two && !eos_traits(eos).gas && !material_burns(&of[material[k]]) &&
             parameters->method.index == GAS_LAX_WENDROFF)
             text = "lax-wendroff divides two gases: leave the method out beside a liquid";
