@@ -154,6 +154,28 @@ static void the_bounds_of_an_oblique_cylinder_hold_it_and_touch_it(void **state)
     assert_true(above.x < 0.05 && above.y < 0.05 && above.z < 0.05);
 }
 
+/* Of a box of whole periods of hexagons or squares, about any center, the walls take
+ * 1 - (1 - wall/pitch)^2. */
+static void walls_of_a_honeycomb_have_their_area(void **state)
+{
+    (void)state;
+    const double wall = 0.08, wanted = 1.0 - (1.0 - wall) * (1.0 - wall), high = sqrt(3.0);
+    for (int cells = 0; cells < 2; cells++)
+        for (int k = 0; k < 3; k++) {
+            const double height = cells ? 2.0 : high;
+            struct shape_honeycomb comb = {VECTOR(0.0, 0.0),
+                                           VECTOR(2.0, height),
+                                           VECTOR(0.13 * k, -0.7 * k),
+                                           1.0,
+                                           wall,
+                                           k == 2 ? 2.0 * acos(0.0) : 0.0,
+                                           !cells ? 0 : 1,
+                                           2};
+            const struct one_of shape = shape_of("honeycomb", &comb);
+            assert_near(sampled_volume(&shape, 2, 1500), wanted * 2.0 * height, 0.01);
+        }
+}
+
 static void parameters_that_make_no_shape_are_told(void **state)
 {
     (void)state;
@@ -189,6 +211,8 @@ static void parameters_that_make_no_shape_are_told(void **state)
     map.rows.names = even;
     map.letter = "xo";
     assert_wrong("template", &map, 2, "one character");
+    struct shape_honeycomb solid = {VECTOR(0.0, 0.0), VECTOR(1.0, 1.0), {0}, 1.0, 1.0, 0.0, 0, 2};
+    assert_wrong("honeycomb", &solid, 2, "thinner");
     map.letter = "z";
     assert_wrong("template", &map, 2, "nowhere");
     assert_wrong("template", &map, 3, "two dimensions");
@@ -205,6 +229,7 @@ int main(void)
         cmocka_unit_test(sites_fill_the_volume_of_a_shell),
         cmocka_unit_test(a_template_is_its_letter_on_the_map),
         cmocka_unit_test(the_bounds_of_an_oblique_cylinder_hold_it_and_touch_it),
+        cmocka_unit_test(walls_of_a_honeycomb_have_their_area),
         cmocka_unit_test(parameters_that_make_no_shape_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
