@@ -50,14 +50,6 @@ BOLIDE_INLINE struct eos_value batch_value(const struct eos *eos, const struct b
     return value;
 }
 
-/* The sound speed of a point that has VALUE. */
-BOLIDE_INLINE double batch_sound(const struct material *material, const struct eos_value *value,
-                                 double density, double energy)
-{
-    const double modulus = material_shear_modulus(material, density, energy);
-    return material_response(value, density, modulus, 0.0).sound_long;
-}
-
 /* Point K, whose energy is ENERGY, or that but for the work of the new pressure. */
 BOLIDE_INLINE void batch_finish(const struct material *material, struct batch *b,
                                 const struct batch_matter *matter, int k, double energy,
@@ -71,38 +63,42 @@ BOLIDE_INLINE void batch_finish(const struct material *material, struct batch *b
         value = batch_value(eos, matter, k, b->energy[k]);
     }
     b->pressure[k] = value.pressure;
-    b->sound_long[k] = batch_sound(material, &value, matter->density[k], b->energy[k]);
+    const double modulus = material_shear_modulus(material, matter->density[k], b->energy[k]);
+    b->sound_long[k] = material_response(&value, matter->density[k], modulus, 0.0).sound_long;
 }
 
 /* Energies, where they are not given, and pressures after the step. The loop evaluates the form of
- * the source, which has no branches; the few points beyond it are done once more. */
+ * the source, which has no branches; the few points beyond it, or that have melted, are done once
+ * more. */
 BOLIDE_INLINE void batch_energies(const struct material *material, struct batch *b,
                                   const struct batch_matter *matter, enum batch_energy from)
 {
     const double none[POINT_HISTORY] = {0.0};
+    const double shear_modulus = strength_shear_modulus(&material->strength);
     double energy[BATCH];
     uint64_t beyond[BATCH], any = 0;
     switch (material->eos.kind) {
-#define BATCH_CASE(name)                                                                 \
-    case EOS_##name:                                                                     \
-        for (int k = 0; k < b->count; k++) {                                             \
-            const struct eos_##name *eos = &material->eos.of.name;                       \
-            const double density = matter->density[k];                                   \
-            energy[k] = b->energy[k];                                                    \
-            struct eos_value value = eos_##name(eos, density, energy[k], none);          \
-            value.pressure = batch_pressure(matter, k, value.pressure);                  \
-            beyond[k] = value.status & POINT_BEYOND;                                     \
-            if (from == ENERGY_BY_WORK) {                                                \
-                b->energy[k] +=                                                          \
-                    material_work_of_pressure(b->density[k], b->new_density[k], &value); \
-                value = eos_##name(eos, density, b->energy[k], none);                    \
-                value.pressure = batch_pressure(matter, k, value.pressure);              \
-            }                                                                            \
-            b->pressure[k] = value.pressure;                                             \
-            b->sound_long[k] = batch_sound(material, &value, density, b->energy[k]);     \
-            beyond[k] |= value.status & POINT_BEYOND;                                    \
-            any |= beyond[k];                                                            \
-        }                                                                                \
+#define BATCH_CASE(name)                                                                          \
+    case EOS_##name:                                                                              \
+        for (int k = 0; k < b->count; k++) {                                                      \
+            const struct eos_##name *eos = &material->eos.of.name;                                \
+            const double density = matter->density[k];                                            \
+            energy[k] = b->energy[k];                                                             \
+            struct eos_value value = eos_##name(eos, density, energy[k], none);                   \
+            value.pressure = batch_pressure(matter, k, value.pressure);                           \
+            beyond[k] = value.status & POINT_BEYOND;                                              \
+            if (from == ENERGY_BY_WORK) {                                                         \
+                b->energy[k] +=                                                                   \
+                    material_work_of_pressure(b->density[k], b->new_density[k], &value);          \
+                value = eos_##name(eos, density, b->energy[k], none);                             \
+                value.pressure = batch_pressure(matter, k, value.pressure);                       \
+            }                                                                                     \
+            b->pressure[k] = value.pressure;                                                      \
+            b->sound_long[k] = material_response(&value, density, shear_modulus, 0.0).sound_long; \
+            beyond[k] |= (value.status & POINT_BEYOND) |                                          \
+                         melting_begins(&material->melting, density, b->energy[k]);               \
+            any |= beyond[k];                                                                     \
+        }                                                                                         \
         break;
         EOS_STATELESS(BATCH_CASE)
 #undef BATCH_CASE
@@ -347,20 +343,22 @@ BOLIDE_INLINE void batch_melt(const struct material *material, struct batch *b, 
 BOLIDE_INLINE void batch_strength(const struct material *material, struct batch *b)
 {
     const bool opens = material_opens(material);
-    double left[BATCH], strain[BATCH], heating[BATCH], least = 1.0;
+    double density[BATCH], strain[BATCH], heating[BATCH];
+    uint64_t any = 0;
     for (int k = 0; k < b->count; k++) {
-        const double density = b->new_density[k] / (opens ? 1.0 + b->void_ratio[k] : 1.0);
-        left[k] = melting_left(&material->melting, density, b->energy[k]);
-        least = minimum(least, left[k]);
+        density[k] = b->new_density[k] / (opens ? 1.0 + b->void_ratio[k] : 1.0);
+        any |= melting_begins(&material->melting, density[k], b->energy[k]);
     }
-    if (least < 1.0) {
+    if (any) {
         memcpy(strain, b->plastic_strain, sizeof strain);
         memcpy(heating, b->plastic_heating, sizeof heating);
     }
     strength_batch(&material->strength, b);
-    for (int k = 0; least < 1.0 && k < b->count; k++)
-        if (left[k] < 1.0)
-            batch_melt(material, b, left[k], strain[k], heating[k], k);
+    for (int k = 0; any && k < b->count; k++) {
+        const double left = melting_left(&material->melting, density[k], b->energy[k]);
+        if (left < 1.0)
+            batch_melt(material, b, left, strain[k], heating[k], k);
+    }
 }
 
 /* Takes the points of a batch through the step: strength, failure, work, pressure. */

@@ -47,9 +47,18 @@ BOLIDE_INLINE struct melting melting_of(const struct eos *eos, const struct stre
     return melting;
 }
 
+/* 1 where matter at DENSITY and ENERGY, J/kg, has lost some of its strength, else 0; without a
+ * branch, for loops. */
+BOLIDE_INLINE uint64_t melting_begins(const struct melting *melting, double density, double energy)
+{
+    return (uint64_t)(density < melting->density) & (uint64_t)(energy > melting->heat);
+}
+
 /* The fraction that is left of strength at DENSITY and ENERGY, J/kg. */
 BOLIDE_INLINE double melting_left(const struct melting *melting, double density, double energy)
 {
+    if (!melting_begins(melting, density, energy))
+        return 1.0;
     const double hot = (energy - melting->heat) * melting->per_heat,
                  thin = (melting->density - density) * melting->per_density;
     return 1.0 - minimum(maximum(hot, 0.0), 1.0) * minimum(maximum(thin, 0.0), 1.0);
