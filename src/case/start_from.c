@@ -132,7 +132,8 @@ static struct error *read_record(struct simulation_case *input, int index, const
                                  const struct case_options *options)
 {
     struct record_input *record = &case_load(input, index)->record;
-    const struct case_options plain = {.recording = true,
+    const struct case_options plain = {.form = options->form,
+                                       .recording = true,
                                        .source = true,
                                        .library_paths = options->library_paths,
                                        .library_count = options->library_count};
