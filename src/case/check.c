@@ -247,7 +247,9 @@ static void check_weights(struct checking *checking, const struct body_input *bo
     if (body->weights == 0)
         return;
     if (solver && (!strcmp(solver->name, "sph") || !strcmp(solver->name, "gas")))
-        case_wrong(checking, "weights", "the solver %s has no particles of unequal mass in a body",
+        case_wrong(checking, "weights",
+                   "only material points have weights: leave this out with the "
+                   "solver %s",
                    solver->name);
     else if (body->lattice.choice && strcmp(body->lattice.choice->name, "square") != 0)
         case_wrong(checking, "weights", "this needs the lattice `square`");

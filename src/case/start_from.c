@@ -94,14 +94,28 @@ static void find_cycle(const char *path, char **chain)
         free(file[k]);
 }
 
+/* Reads the case in FILE, which KEY calls FROM, in FORM (NULL: as it is), to be computed first. */
+static struct error *read_source(struct checking *checking, const char *key, const char *from,
+                                 const char *file, const char *form,
+                                 const struct case_options *options,
+                                 struct simulation_case **source)
+{
+    const struct case_options plain = {.form = form,
+                                       .recording = true,
+                                       .source = true,
+                                       .library_paths = options->library_paths,
+                                       .library_count = options->library_count};
+    if (access(file, R_OK) == 0)
+        return case_read(file, &plain, checking->input->catalogue, source);
+    const char *slash = strrchr(from, '/');
+    case_wrong(checking, key, "there is no case \"%s\"", slash ? slash + 1 : from);
+    return checking->error;
+}
+
 struct error *case_read_start(struct simulation_case *input, const char *path,
                               const struct case_options *options)
 {
     struct start_input *start = &input->start;
-    struct case_options plain = {.recording = true,
-                                 .source = true,
-                                 .library_paths = options->library_paths,
-                                 .library_count = options->library_count};
     if (!start->from)
         return NULL;
     char *file = path_of(path, start->from);
@@ -115,13 +129,8 @@ struct error *case_read_start(struct simulation_case *input, const char *path,
         case_wrong(&checking, "from", "a case cannot start from itself, be it through others: %s",
                    chain);
         error = checking.error;
-    } else if (access(file, R_OK) == 0) {
-        error = case_read(file, &plain, input->catalogue, &start->input);
-    } else {
-        const char *slash = strrchr(start->from, '/');
-        case_wrong(&checking, "from", "there is no case \"%s\"", slash ? slash + 1 : start->from);
-        error = checking.error;
-    }
+    } else
+        error = read_source(&checking, "from", start->from, file, NULL, options, &start->input);
     free(chain);
     free(file);
     return error;
@@ -132,11 +141,6 @@ static struct error *read_record(struct simulation_case *input, int index, const
                                  const struct case_options *options)
 {
     struct record_input *record = &case_load(input, index)->record;
-    const struct case_options plain = {.form = options->form,
-                                       .recording = true,
-                                       .source = true,
-                                       .library_paths = options->library_paths,
-                                       .library_count = options->library_count};
     struct checking checking = {.input = input, .map = "loads", .name = input->loads.names[index]};
     if (options->source) {
         case_wrong(&checking, "record",
@@ -146,15 +150,10 @@ static struct error *read_record(struct simulation_case *input, int index, const
     char *file = path_of(path, record->from);
     if (!file)
         return out_of_memory();
-    if (access(file, R_OK) == 0) {
-        struct error *error = case_read(file, &plain, input->catalogue, &record->input);
-        free(file);
-        TRY(error);
-    } else {
-        free(file);
-        case_wrong(&checking, "record.from", "there is no case \"%s\"", record->from);
-        return checking.error;
-    }
+    struct error *error = read_source(&checking, "record.from", record->from, file, options->form,
+                                      options, &record->input);
+    free(file);
+    TRY(error);
     const int probe =
         case_find_name(&checking, &record->input->probes, "probe", record->probe, "record.probe");
     if (probe >= 0 && strcmp(case_probe(record->input, probe)->probe.choice->name, "line") != 0)

@@ -40,7 +40,7 @@ static const struct parameter body_table[] = {
         "each axis of a site are looked at, and the particle stands at the mean of those that "
         "are in it; for walls thinner than a few particles. 0: a site counts whole where its "
         "centre is in the body (solvers mpm, cfdmp, afdmp)",
-        .above = -1, .below = 33),
+        .above = 0, .below = 32, .closed = true),
     PARAMETER(NAMES, struct body_input, replaces, OPTIONAL,
               "bodies that are cut away where this one is"),
     PARAMETER(FLAG, struct body_input, driven, "no",

@@ -9,7 +9,7 @@ const struct parameter probe_line_table[] = {
     PARAMETER(VECTOR, struct probe_line, from, REQUIRED, "its first point", .unit = "m"),
     PARAMETER(VECTOR, struct probe_line, to, REQUIRED, "its last point", .unit = "m"),
     PARAMETER(INTEGER, struct probe_line, points, REQUIRED, "how many points, 2 or more",
-              .above = 1, .below = PROBE_COLUMNS),
+              .above = 2, .below = PROBE_COLUMNS - 1, .closed = true),
     PARAMETER(NUMBER, struct probe_line, radius, OPTIONAL,
               "radius around a point within which particles and cells count; default: 0.87 of the "
               "resolution of the case, so that each point has a cell, and one in the centre of a "

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-
 #include "run/run_internal.h"
 
 /* Where the columns of the pressure are in PROBE, a line: their count, and *FIRST. */
@@ -17,7 +16,7 @@ static int find_pressure(const struct probe *probe, int *first)
     return count;
 }
 
-/* What a line and a load are about. */
+/* The record that is taken, and where its impulses go. */
 struct taking {
     const struct record_input *record;
     struct load_trace *trace;

@@ -159,7 +159,8 @@ void warnings_start(struct warnings *warnings, const struct simulation *simulati
     warnings->speed = ranks_maximum(simulation->ranks, largest);
 }
 
-/* The speed to which LOAD accelerates material from rest, sqrt(2 p/rho), now. */
+/* The speed to which the load at INDEX accelerates material from rest, sqrt(2 p/rho): now, or of a
+ * record at any time, since its peak is short. */
 static double load_speed(const struct simulation *simulation, int index)
 {
     const struct load_input *load = case_load(simulation->problem->input, index);
@@ -169,7 +170,7 @@ static double load_speed(const struct simulation *simulation, int index)
         load->traction.count ? 0.0 : field_at(&load->pressure, nowhere, simulation->time);
     for (int k = 0; k < load->traction.count; k++)
         stress = hypot(stress, field_at(&load->traction.at[k], nowhere, simulation->time));
-    if (load->record.from) /* of all times: its peak is short */
+    if (load->record.from)
         stress = simulation->trace[index].largest;
     const double speed =
         sqrt(2.0 * fabs(stress) /

@@ -40,7 +40,7 @@ static double to_edge_of_square(double x, double y)
 static double to_edge_of_hexagon(double x, double y)
 {
     const double high = 0.5 * sqrt(3.0); /* of a row of cells */
-    double nearest[2] = {INFINITY, INFINITY}, from[2] = {0.0, 0.0}, edge = INFINITY;
+    double nearest[2] = {INFINITY, INFINITY}, edge = INFINITY;
     for (int next = 0; next < 2; next++) { /* the center is in the row below or above */
         const double row = floor(y / high) + next, shift = 0.5 * fmod(fabs(row), 2.0);
         const double dx = x - (round(x - shift) + shift), dy = y - row * high;
@@ -49,11 +49,9 @@ static double to_edge_of_hexagon(double x, double y)
             nearest[1] = dy;
         }
     }
-    for (int k = 0; k < 3; k++) {
-        from[0] = cos(k * acos(0.5));
-        from[1] = sin(k * acos(0.5));
-        edge = minimum(edge, 0.5 - fabs(nearest[0] * from[0] + nearest[1] * from[1]));
-    }
+    const double to[3][2] = {{1.0, 0.0}, {0.5, high}, {-0.5, high}}; /* neighbours */
+    for (int k = 0; k < 3; k++)
+        edge = minimum(edge, 0.5 - fabs(nearest[0] * to[k][0] + nearest[1] * to[k][1]));
     return edge;
 }
 

@@ -239,6 +239,7 @@ static void step_point(struct particles *p, const struct advance *step,
 static void step_batch(struct particles *p, const struct advance *step, struct passage *passage)
 {
     const struct sph_fields *const f = step->fields;
+    const double modulus = strength_shear_modulus(&passage->material->strength);
     struct batch *b = &passage->batch;
     b->count = (passage->count + LANES - 1) / LANES * LANES;
     for (int k = 0; k < b->count; k++) {
@@ -267,8 +268,7 @@ static void step_batch(struct particles *p, const struct advance *step, struct p
         sym3_store(batch_tensor(b->new_deviator, k), p->deviator[i]);
         batch_keep_history(b, k, p->history, i);
         f->sound_long[i] = b->sound_long[k];
-        f->sound_shear[i] = sqrt(
-            material_shear_modulus(passage->material, p->density[i], p->energy[i]) / p->density[i]);
+        f->sound_shear[i] = sqrt(modulus / b->new_density[k]);
     }
 }
 

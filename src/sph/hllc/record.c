@@ -59,9 +59,8 @@ static void pack_for_forces(const struct hllc_kind kind, const struct simulation
         *next++ = p->pressure[i];
         *next++ = f->own.dp_drho[i];
         *next++ = f->own.dp_de[i];
-        const double left = melting_left(&material->melting, p->density[i], p->energy[i]);
-        *next++ = left * strength_shear_modulus(&material->strength);
-        *next++ = left * strength_yield(&material->strength, &point);
+        *next++ = strength_shear_modulus(&material->strength);
+        *next++ = strength_yield(&material->strength, &point);
     }
     if (!kind.reconstructed)
         return;

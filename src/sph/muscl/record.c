@@ -150,7 +150,6 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
     if (f->sph.thickness) /* no stress rate across the plate */
         strain.zz = -(strain.xx + strain.yy) * (1.0 - 2.0 * shear_square / sound_square);
     const double bulk = p->density[i] * (sound_square - 4.0 / 3.0 * shear_square);
-    double left = 1.0;
     *elastic = 0.0;
     if (strength_is_solid(strength) && !rubble) {
         struct motion motion = {.dt = ahead,
@@ -168,14 +167,13 @@ BOLIDE_INLINE struct sym3 half_step_of(const struct simulation *simulation,
             flow_rarely(strength, &motion, bulk, &point);
         }
         stress = point.deviator;
-        left = melting_left(&material->melting, p->density[i], p->energy[i]);
         if (point.history[HISTORY_plastic_strain] <= flowed)
             *elastic = firmness_of(f, i) * far_from_axis(simulation, f, i);
     }
     double pressure = ahead * bulk * sym3_trace(strain);
     if (failed && p->history[HISTORY_void_ratio] && p->history[HISTORY_void_ratio][i] > 0.0)
         pressure = 0.0; /* voids open or close */
-    stress = sym3_scale(left, sym3_add(stress, sym3_scale(-1.0, start)));
+    stress = sym3_add(stress, sym3_scale(-1.0, start));
     stress.xx += pressure;
     stress.yy += pressure;
     stress.zz += pressure;
