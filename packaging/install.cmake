@@ -1,5 +1,6 @@
 # What `make install` and the Debian package hold. Two components: the program with its materials, examples,
-# templates, man page and schema; and the library with its public headers. The package is the program alone.
+# templates, man page, schema and Python package; and the library with its public headers. The
+# package is the program alone.
 include(GNUInstallDirs)
 set(share ${CMAKE_INSTALL_DATAROOTDIR}/bolide)
 
@@ -30,6 +31,26 @@ install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONE
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
     PATTERN outputs EXCLUDE)
 
+# Where Python looks for packages: below /usr Debian's folder of all versions; below another prefix
+# the folder of one version, which Debian calls otherwise than others do.
+find_program(BOLIDE_PYTHON_HERE NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
+find_program(BOLIDE_PYTHON_HERE NAMES python3)
+set(python_version 3)
+if(BOLIDE_PYTHON_HERE)
+    execute_process(COMMAND ${BOLIDE_PYTHON_HERE} -c "import sys; print('%d.%d' % sys.version_info[:2])"
+        OUTPUT_VARIABLE python_version OUTPUT_STRIP_TRAILING_WHITESPACE)
+endif()
+set(python_packages site-packages)
+if(EXISTS /usr/lib/python3/dist-packages)
+    set(python_packages dist-packages)
+endif()
+install(CODE "set(bolide_python lib/python${python_version}/${python_packages})
+    if(CMAKE_INSTALL_PREFIX STREQUAL \"/usr\" AND \"${python_packages}\" STREQUAL \"dist-packages\")
+        set(bolide_python lib/python3/dist-packages)
+    endif()" COMPONENT program)
+install(DIRECTORY python/bolide DESTINATION "\${bolide_python}" COMPONENT program
+    FILES_MATCHING PATTERN "*.py")
+
 # The headers keep their modules: a program that uses the library writes `#include "case/case.h"`.
 install(TARGETS libbolide ARCHIVE COMPONENT library)
 install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bolide COMPONENT library
@@ -59,5 +80,6 @@ file that also says what its result must be.")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS fonts-dejavu-core)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-h5py, python3-numpy")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS ffmpeg)
 include(CPack)

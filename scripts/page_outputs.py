@@ -15,6 +15,7 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 
 import yaml
@@ -83,15 +84,19 @@ def masked(text):
         r"[\d.]+", lambda n: "…".rjust(len(n[0])), line[0]), text, flags=re.M)
 
 
-def record(page, program):
-    """Runs the commands of PAGE in an empty folder and writes what they print to its record."""
+def printed(page, program):
+    """Runs the commands of PAGE in an empty folder; the record of what they print. Its scripts run
+    with this Python and the package of the source tree."""
     text = page.read_text()
     with tempfile.TemporaryDirectory() as folder:
         build = pathlib.Path(folder) / "build" / "release"
         build.mkdir(parents=True)
         (build / "bolide").symlink_to(program)
+        (build / "python3").symlink_to(sys.executable)
         environment = dict(os.environ, PATH=f"{build}:{os.environ['PATH']}", OMP_NUM_THREADS="2",
-                           XDG_CACHE_HOME=str(build.parent / "cache"))
+                           XDG_CACHE_HOME=str(build.parent / "cache"),
+                           PYTHONPATH=str(ROOT / "python"), PYTHONDONTWRITEBYTECODE="1")
+        environment.pop("BOLIDE", None)
         parts = [head_of(text)]
         for match, name, own in steps_of(text):
             if name:
@@ -102,9 +107,14 @@ def record(page, program):
                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                      check=False)
                 parts.append(command + masked(run.stdout))
-    path = record_of(page)
+    return "".join(parts)
+
+
+def record(page, program):
+    """Writes what the commands of PAGE print to its record."""
+    path, text = record_of(page), printed(page, program)
     path.parent.mkdir(exist_ok=True)
-    path.write_text("".join(parts))
+    path.write_text(text)
 
 
 def chosen(output, patterns):

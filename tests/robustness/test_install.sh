@@ -53,5 +53,8 @@ cpack -G DEB --config "$build/CPackConfig.cmake" -B "$PWD/package" >said 2>&1 ||
 dpkg-deb -x package/*.deb root || fail "the package cannot be unpacked"
 dpkg-deb -f package/*.deb Depends | grep -q libhdf5 || fail "the package does not say what it needs"
 verifies root/usr
+[ -e root/usr/lib/python3/dist-packages/bolide/__init__.py ] ||
+    [ -n "$(ls root/usr/lib/python3*/site-packages/bolide/__init__.py 2>/dev/null)" ] ||
+    fail "the package has no Python package"
 
 exit $status
