@@ -55,6 +55,11 @@ enum parameter_kind {
     PARAMETER_MAP,
 };
 
+/* Whether a resumed run may have another value than before: never; from the moment of the resume
+ * on; or whenever, since it does not change the state. What names none has that of the table or the
+ * map that it is in. */
+enum parameter_change { CHANGE_AS_AROUND, CHANGE_NEVER, CHANGE_FROM_HERE, CHANGE_FREELY };
+
 #define REQUIRED ((const char *)0)
 #define OPTIONAL ""
 
@@ -79,6 +84,8 @@ struct parameter {
     size_t owned;              /* offset of a pointer to memory that is computed from the values of
                                 * the table and freed with them; 0: none */
     unsigned arguments;        /* FIELD(S): what it may name, a sum of enum expression_arguments */
+    /* of the key, and of entries that a MAP gets or loses; of what is in it, where that differs */
+    enum parameter_change change, change_within;
 };
 
 /* A row of a table: the key MEMBER of the struct T, the default, help, then what else the kind has,

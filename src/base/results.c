@@ -21,8 +21,10 @@ static const char log_name[] = "run.log", list_name[] = ".bolide-files",
 static const char *const result_files[] = {
     "case.yaml",   "history.csv", "checkpoint.h5",           "checks.csv",
     "summary.csv", "report.html", "snapshots.vtkhdf.series", "fragments.csv",
-    "view.html",
+    "view.html",   "changes.csv",
 };
+/* The cases before each change of a resumed run. */
+static const char earlier_cases[] = "case-" RESULTS_NUMBER ".yaml";
 static const char *const result_folders[] = {"snapshots", "pictures", "probes", "profiles"};
 
 static struct error *remove_file(const char *path)
@@ -124,6 +126,7 @@ static struct error *remove_run(const char *folder)
 {
     for (size_t i = 0; i < COUNT_OF(result_files); i++)
         TRY(remove_named(folder, result_files[i]));
+    TRY(remove_numbered(folder, earlier_cases));
     TRY(remove_all_listed(folder));
     for (size_t i = 0; i < COUNT_OF(result_folders); i++)
         TRY(remove_empty(folder, result_folders[i]));
@@ -216,6 +219,19 @@ struct error *results_begin(const char *folder, bool overwrite, const char *cons
         TRY(remove_run(folder));
     TRY(mark_folder(folder));
     return write_list(folder, names);
+}
+
+struct error *results_add(const char *folder, const char *const *names)
+{
+    FILE *file = NULL;
+    char *path = path_join(folder, list_name);
+    struct error *error = path ? file_open(path, "a", &file) : out_of_memory();
+    for (; file && *names; names++)
+        fprintf(file, "%s\n", *names);
+    if (file && fclose(file))
+        error = file_error(path, errno);
+    free(path);
+    return error;
 }
 
 static struct error *in_use(const char *folder, int descriptor)

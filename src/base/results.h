@@ -22,6 +22,9 @@ struct error *results_check_links(const char *folder);
  * run that overwrites these results. */
 struct error *results_begin(const char *folder, bool overwrite, const char *const *names);
 
+/* Adds NAMES to those of the results in FOLDER, which a resumed run writes too. */
+struct error *results_add(const char *folder, const char *const *names);
+
 /* A lock on a folder; zeroed: none. */
 struct results_lock {
     char *path;

@@ -65,8 +65,10 @@ const struct parameter case_material_table[] = {
     PARAMETER(
         TEXT, struct material_input, library, OPTIONAL,
         "a material of the library (`bolide materials`); other keys beside it replace its values"),
-    PARAMETER(TEXT, struct material_input, description, OPTIONAL, "one line about the material"),
-    PARAMETER(TEXT, struct material_input, source, OPTIONAL, "source of its values"),
+    PARAMETER(TEXT, struct material_input, description, OPTIONAL, "one line about the material",
+              .change = CHANGE_FREELY),
+    PARAMETER(TEXT, struct material_input, source, OPTIONAL, "source of its values",
+              .change = CHANGE_FREELY),
     PARAMETER(ONE_OF, struct material_input, eos, REQUIRED, "the equation of state",
               .kind_of_thing = "eos"),
     PARAMETER(ONE_OF, struct material_input, strength, OPTIONAL,

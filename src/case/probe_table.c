@@ -19,7 +19,7 @@ const struct parameter case_probe_table[] = {
     PARAMETER(VECTOR, struct probe_input, between, OPTIONAL,
               "of a front: two positions on the axis between which it is located", .unit = "m"),
     PARAMETER(NUMBER, struct probe_input, every, OPTIONAL, "time between rows; default: every step",
-              .unit = "s", .below = INFINITY),
+              .unit = "s", .below = INFINITY, .change = CHANGE_FREELY),
     PARAMETER_END,
 };
 

@@ -20,8 +20,8 @@ struct text_list {
 struct cli_options {
     const char *output;
     int64_t threads, points, ranks_wanted;
-    bool overwrite, resume, quick, thorough, all, convergence, curves, record, compare, pilot,
-        force;
+    bool overwrite, resume, change, quick, thorough, all, convergence, curves, record, compare,
+        pilot, force;
     const char *time, *at, *template_name;
     const char *fields, *limit, *format, *rate, *size; /* of view, film and picture */
     int64_t frames;

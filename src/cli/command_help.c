@@ -83,8 +83,22 @@ static void kind_text(const struct parameter *p, char *text, size_t size)
         snprintf(text, size, "%s", words[p->kind]);
 }
 
-static void print_parameter(const struct parameter *p, int indent)
+/* What P has of the class that is AROUND it. */
+static enum parameter_change change_of(const struct parameter *p, enum parameter_change around)
 {
+    return p->change == CHANGE_AS_AROUND ? around : p->change;
+}
+
+/* The class of what is in P. */
+static enum parameter_change change_in(const struct parameter *p, enum parameter_change around)
+{
+    return p->change_within == CHANGE_AS_AROUND ? change_of(p, around) : p->change_within;
+}
+
+/* AROUND is the class that the keys beside P have. */
+static void print_parameter(const struct parameter *p, int indent, enum parameter_change around)
+{
+    static const char *const words[] = {"", " [fixed]", " [from here]", " [free]"};
     enum { WIDTH = 22 };
     char kind[512], key[96];
     kind_text(p, kind, sizeof kind);
@@ -96,27 +110,45 @@ static void print_parameter(const struct parameter *p, int indent)
         printf("\n%*s", 2 * WIDTH + 2, "");
     printf("  %s", p->help ? p->help : "");
     if (!p->standard)
-        printf(" (required)\n");
+        printf(" (required)");
     else if (p->standard[0])
-        printf(" (default: %s)\n", p->standard);
-    else
-        printf("\n");
+        printf(" (default: %s)", p->standard);
+    const enum parameter_change own = change_of(p, around);
+    printf("%s\n", own == around ? "" : words[own]);
 }
 
-static void print_table(const struct parameter *table, int indent)
+static void print_table(const struct parameter *table, int indent, enum parameter_change around)
 {
     for (const struct parameter *p = table; p && !PARAMETER_IS_END(p); p++) {
-        print_parameter(p, indent);
+        print_parameter(p, indent, around);
         if (p->kind == PARAMETER_TABLE || p->kind == PARAMETER_MAP)
-            print_table(p->table, indent + 2);
+            print_table(p->table, indent + 2, change_in(p, around));
     }
+}
+
+/* P by itself, with the class that it has where AROUND is that of what it is in. */
+static void print_key(const struct parameter *p, enum parameter_change around)
+{
+    struct parameter key = *p;
+    key.change = change_of(p, around);
+    print_parameter(&key, 0, CHANGE_NEVER);
+    print_table(p->table, 2, change_in(p, around));
+}
+
+/* A line about the classes of keys that may change in a resumed run. */
+static void print_classes(void)
+{
+    printf(
+        "With --resume keys marked [free] may have another value than before; those marked\n"
+        "[from here] with --change too, from the checkpoint on; all others, and [fixed] ones in\n"
+        "a map that is marked, may not.\n");
 }
 
 static void print_choice(const char *kind, const struct choice *choice)
 {
     printf("%s%s%s (%s): %s\n", colour(COLOUR_STRONG), choice->name, colour(COLOUR_NONE), kind,
            choice->help);
-    print_table(choice->table, 2);
+    print_table(choice->table, 2, CHANGE_NEVER);
 }
 
 static void print_units(void)
@@ -280,8 +312,8 @@ static bool help_thing(const char *topic)
     return found;
 }
 
-static bool help_key(const struct parameter *table, const char *path);
-static bool help_inside(const struct parameter *p, const char *path);
+static bool help_key(const struct parameter *table, const char *path, enum parameter_change around);
+static bool help_inside(const struct parameter *p, const char *path, enum parameter_change around);
 
 static bool starts_with(const char *path, const char *word)
 {
@@ -303,7 +335,7 @@ static const char *behind_dot(const char *path)
 }
 
 /* A path that goes on with the name of a thing of KIND: sph.skin. */
-static bool help_thing_key(const char *kind, const char *path)
+static bool help_thing_key(const char *kind, const char *path, enum parameter_change around)
 {
     const struct choice_list *list = catalogue_list(&bolide_catalogue, kind);
     const char *rest = behind_dot(path);
@@ -312,9 +344,9 @@ static bool help_thing_key(const char *kind, const char *path)
             continue;
         const struct parameter *table = list->choices[i].table;
         if (rest && table && is_number(rest)) /* an item of the first parameter: union.2 */
-            return help_inside(table, rest);
+            return help_inside(table, rest, around);
         if (rest)
-            return help_key(table, rest);
+            return help_key(table, rest, around);
         print_choice(kind, &list->choices[i]);
         return true;
     }
@@ -323,12 +355,13 @@ static bool help_thing_key(const char *kind, const char *path)
 
 /* The keys behind P. Names that a user chose and numbers of items stand for any word, or are left
  * out: bodies.flyer.velocity, bodies.velocity. */
-static bool help_inside(const struct parameter *p, const char *path)
+static bool help_inside(const struct parameter *p, const char *path, enum parameter_change around)
 {
     const char *rest = behind_dot(path);
+    const enum parameter_change within = change_in(p, around);
     if (p->kind == PARAMETER_ONE_OF)
-        return help_thing_key(p->kind_of_thing, path);
-    if (p->table && help_key(p->table, path))
+        return help_thing_key(p->kind_of_thing, path, within);
+    if (p->table && help_key(p->table, path, within))
         return true;
     bool items = p->kind == PARAMETER_LIST || p->kind == PARAMETER_VECTOR ||
                  p->kind == PARAMETER_VECTORS || p->kind == PARAMETER_FIELDS ||
@@ -336,29 +369,27 @@ static bool help_inside(const struct parameter *p, const char *path)
     if (p->kind != PARAMETER_MAP && !(items && is_number(path)))
         return false;
     if (rest && p->table)
-        return help_key(p->table, rest);
+        return help_key(p->table, rest, within);
     if (rest && p->kind == PARAMETER_LIST)
-        return help_thing_key(p->kind_of_thing, rest);
+        return help_thing_key(p->kind_of_thing, rest, within);
     if (rest && items)
-        return help_inside(p, rest);
-    print_parameter(p, 0);
-    print_table(p->table, 2);
+        return help_inside(p, rest, around);
+    print_key(p, around);
     return true;
 }
 
 /* A key of TABLE by its path. */
-static bool help_key(const struct parameter *table, const char *path)
+static bool help_key(const struct parameter *table, const char *path, enum parameter_change around)
 {
     const char *rest = behind_dot(path);
     for (const struct parameter *p = table; p && !PARAMETER_IS_END(p); p++) {
-        if (!p->key && help_thing_key(p->kind_of_thing, path))
+        if (!p->key && help_thing_key(p->kind_of_thing, path, around))
             return true;
         if (!p->key || !starts_with(path, p->key))
             continue;
         if (rest)
-            return help_inside(p, rest);
-        print_parameter(p, 0);
-        print_table(p->table, 2);
+            return help_inside(p, rest, around);
+        print_key(p, around);
         return true;
     }
     return false;
@@ -380,7 +411,8 @@ static bool help_topic(const char *topic)
     found = help_thing(topic) || found;
     if (found && (is_top_key(case_table, topic) || is_top_key(case_shaping_table, topic)))
         printf("\nas a key of a case:\n");
-    return help_key(case_table, topic) || help_key(case_shaping_table, topic) || found;
+    return help_key(case_table, topic, CHANGE_NEVER) ||
+           help_key(case_shaping_table, topic, CHANGE_NEVER) || found;
 }
 
 /* The same with hyphens for blanks: johnson cook. */
@@ -434,8 +466,9 @@ int command_help(const struct cli_options *options)
     if (!topic)
         print_commands();
     else if (!strcmp(topic, "case")) {
-        print_table(case_table, 0);
-        print_table(case_shaping_table, 0);
+        print_table(case_table, 0, CHANGE_NEVER);
+        print_table(case_shaping_table, 0, CHANGE_NEVER);
+        print_classes();
     } else if (!strcmp(topic, "units"))
         print_units();
     else if (!strcmp(topic, "fields")) {

@@ -124,9 +124,10 @@ static const struct answer answers[] = {
      "with\n"
      "their confidence (statistics.csv, plots, and fits with `take: mean`).",
      "tasks/random-grains.md"},
-    {" restart resume checkpoint continue extend ",
-     "bolide run --resume continues a run from its last checkpoint, with the same bits. The\n"
-     "case must be the same: a run cannot be extended or changed.",
+    {" restart resume checkpoint continue extend longer change ",
+     "bolide run --resume continues a run from its last checkpoint, with the same bits. A later\n"
+     "end, other outputs, new probes and checks are free; `bolide help KEY` has the class of a\n"
+     "key.",
      "tasks/restart.md"},
     {" film movie video animation animate gif ",
      "bolide film FOLDER [NAME] joins the frames of a picture to an mp4 with ffmpeg, or to an\n"

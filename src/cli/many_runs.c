@@ -10,6 +10,7 @@ struct run_options running_of(const struct cli_options *options, const char *fol
         .output = folder,
         .overwrite = options->overwrite,
         .resume = options->resume,
+        .change = options->change,
         .force = options->force,
         .ranks = options->ranks,
         .threads = (int)options->threads,

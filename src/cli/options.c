@@ -33,6 +33,10 @@ static const struct option option_table[] = {
      COMMAND_RUN | COMMAND_VERIFY | COMMAND_SEARCH},
     {"--resume", NULL, "continue from the last checkpoint in the folder of the results",
      OPTION_FLAG, AT(resume), COMMAND_RUN | COMMAND_SEARCH},
+    {"--change", NULL,
+     "with --resume: continue with other loads, boundaries and the like (`bolide help case` marks "
+     "them `from here`)",
+     OPTION_FLAG, AT(change), COMMAND_RUN},
     {"--threads", "N", "largest number of threads (default: all processors; of a forecast: 1)",
      OPTION_THREADS, AT(threads),
      COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_SEARCH | COMMAND_PICTURE},
@@ -242,6 +246,8 @@ struct error *options_read(const struct command *command, int count, char **word
                           command->name, command->usage, command->name);
     if (!error && options->overwrite && options->resume)
         error = error_new(ERROR_INPUT, "--overwrite and --resume exclude each other");
+    if (!error && options->change && !options->resume)
+        error = error_new(ERROR_INPUT, "--change needs --resume");
     if (!error && options->quick && options->thorough)
         error = error_new(ERROR_INPUT, "--short and --long exclude each other");
     if (!error && options->record + options->compare + options->convergence > 1)

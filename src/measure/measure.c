@@ -42,6 +42,7 @@ const char *nothing_text(enum nothing why)
         [NOTHING_NO_IMAGE] = "a particle has no mirror image among the others",
         [NOTHING_NO_ZONE] = "the field reached the value nowhere on the face",
         [NOTHING_NO_ROWS] = "there is no row of particles, or no time has passed",
+        [NOTHING_ADDED_LATE] = "the check was added to a resumed run after its time",
         [NOTHING_NO_RANGE] = "the error has no scale: the exact solution is "
                              "uniform there, or `scale` is 0",
     };

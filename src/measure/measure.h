@@ -30,6 +30,7 @@ enum nothing {
     NOTHING_NO_ZONE,
     NOTHING_NO_ROWS,
     NOTHING_NO_RANGE,
+    NOTHING_ADDED_LATE,
     NOTHING_REASONS
 };
 /* The reason in words. */

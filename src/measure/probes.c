@@ -32,6 +32,7 @@ struct error *probes_create(const struct simulation_case *input, struct probes *
         probe->selection = (struct selection){.body = case_find_body(input, given->of),
                                               .axis = given->axis < 0 ? 0 : given->axis,
                                               .between = given->between};
+        probe->stored = probes->count;
         probe->step = -1;
         probe->failed = -1.0;
     }
@@ -225,7 +226,7 @@ struct error *probes_open(struct probes *probes, const char *folder, bool resume
     char *own = path_join(folder, "probes");
     struct error *error = !own ? out_of_memory() : writes ? folder_make(own) : NULL;
     for (int i = 0; i < probes->count && !error; i++)
-        error = open_one(&probes->item[i], own, resume, writes);
+        error = open_one(&probes->item[i], own, resume && probes->item[i].stored >= 0, writes);
     free(own);
     return error;
 }
@@ -317,6 +318,14 @@ struct error *probes_watch(struct probes *probes, const struct simulation *simul
     return error;
 }
 
+void probes_catch_up(struct probes *probes, double time)
+{
+    for (int i = 0; i < probes->count; i++) {
+        probes->item[i].due = 0;
+        interval_is_due(time, probes->item[i].input->every, &probes->item[i].due);
+    }
+}
+
 struct error *probes_mark(struct probes *probes)
 {
     for (int i = 0; i < probes->count; i++) {
@@ -351,15 +360,18 @@ struct error *probes_visit(struct probes *probes, struct visitor *visitor)
 {
     for (int i = 0; i < probes->count; i++) {
         struct probe *probe = &probes->item[i];
+        const int number = visitor->most ? probe->stored : i;
+        if (number < 0)
+            continue;
         int64_t numbers[3] = {probe->rows, probe->due, probe->step};
         char name[64];
-        snprintf(name, sizeof name, "probes/%d/rows", i);
+        snprintf(name, sizeof name, "probes/%d/rows", number);
         TRY(visitor->visit(visitor, name, NUMBER_INT64, numbers, 3, 1));
-        snprintf(name, sizeof name, "probes/%d/id", i);
+        snprintf(name, sizeof name, "probes/%d/id", number);
         TRY(visitor->visit(visitor, name, NUMBER_UINT64, &probe->id, 1, 1));
-        snprintf(name, sizeof name, "probes/%d/failed", i);
+        snprintf(name, sizeof name, "probes/%d/failed", number);
         TRY(visitor->visit(visitor, name, NUMBER_DOUBLE, &probe->failed, 1, 1));
-        snprintf(name, sizeof name, "probes/%d/file", i);
+        snprintf(name, sizeof name, "probes/%d/file", number);
         TRY(csv_visit_mark(&probe->mark, name, visitor));
         probe->rows = numbers[0];
         probe->due = numbers[1];

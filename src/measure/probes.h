@@ -20,6 +20,7 @@ enum { PROBE_COLUMNS = 1 + FIELDS_MAX };
 struct probe {
     const char *name;
     const struct probe_input *input;
+    int stored; /* its number in the checkpoint that is loaded; -1: it begins with the resume */
     struct selection selection; /* what `of`, `axis` and `between` say */
     struct chosen_fields *fields;
     int columns; /* the first is the time */
@@ -126,6 +127,9 @@ struct error *probes_watch(struct probes *probes, const struct simulation *simul
  * process may have open files. */
 struct error *probes_mark(struct probes *probes);
 struct error *probes_close(struct probes *probes);
+
+/* Counts the times that are due as if each probe had been watched up to TIME. */
+void probes_catch_up(struct probes *probes, double time);
 
 /* What a resumed run needs. */
 struct error *probes_visit(struct probes *probes, struct visitor *visitor);

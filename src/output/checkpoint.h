@@ -5,7 +5,7 @@
 #include "model/solver.h"
 
 /* EXTRA shows what the run loop itself must keep (next output times, ...). CASE_TEXT is the case as
- * run; it is stored, and checkpoint_read refuses a checkpoint whose case differs (ERROR_INPUT). */
+ * run, which is stored. */
 struct checkpoint {
     struct simulation *simulation;
     const struct solver_class *method;
@@ -14,6 +14,10 @@ struct checkpoint {
     void *context;
     const char *case_text;
 };
+
+/* Collective: the case as run that the checkpoint at PATH stores, in fresh memory, for whoever is
+ * to say whether it may be read with another (case/changes.h). */
+struct error *checkpoint_case(const char *path, const struct ranks *ranks, char **text);
 
 /* Collective. Rank 0 writes beside and renames, so that PATH is whole at every moment; every rank
  * reads its share of the particles, on as many ranks as there are. */

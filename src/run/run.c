@@ -120,12 +120,13 @@ static struct error *loop(struct run *run)
     TRY(watch_checks(run));
     TRY(run_agree(run, NULL));
     while (!at_stop(run)) {
+        TRY(run_checkpoint_before_end(run));
         TRY(take_step(run));
         adapt_threads(run);
         run_observe(run);
         TRY(run_watch(run, at_end(run)));
         TRY(watch_checks(run));
-        if (run->checkpoint_is_due || run->checkpoint_is_wanted)
+        if ((run->checkpoint_is_due || run->checkpoint_is_wanted) && !run->shortened)
             TRY(run_checkpoint(run));
         run_progress(run);
         run_warn_of_length(run);
@@ -255,7 +256,7 @@ static struct error *begin(struct run *run)
 static struct error *conclude(struct run *run)
 {
     struct run_result *result = run->result;
-    TRY(run_checkpoint(run));
+    TRY(run_checkpoint_at_end(run));
     TRY(run_draw_pictures(run));
     TRY(ranks_agree(&run->ranks,
                     warnings_conclude(run->warnings, &run->simulation, &result->warnings)));
@@ -310,6 +311,7 @@ static struct error *run_through(struct run *run)
     TRY(begin(run));
     TRY(run_open_folder(run));
     run_report_beginning(run);
+    run_report_changes(run);
     run->began = run->last_checkpoint = run->last_progress = clock_seconds();
     run->waited_before = delay_seconds();
     run->mark[0] = run->mark[1] =
@@ -350,7 +352,7 @@ static void destroy(struct run *run)
     free(run->snapshot_hashes);
     free(run->check_memory);
     free(run->case_text);
-    free(run->state_text);
+    case_changes_free(&run->changes);
     results_unlock(&run->lock);
     free(run);
 }

@@ -22,6 +22,7 @@ struct run_options {
     const char *output;        /* folder of the results; NULL: nothing is written */
     bool overwrite;            /* results that are there already give way */
     bool resume;               /* go on from the folder's checkpoint */
+    bool change;               /* from there on with other values of keys that allow it */
     bool force;                /* whatever memory there is */
     const struct ranks *ranks; /* that run it together; NULL: this process alone */
     int threads;               /* at most; 0: as many as OpenMP would take */

@@ -26,6 +26,7 @@ static struct error *visit_extra(void *context, struct visitor *visitor)
         {"run/snapshots", &run->snapshots, NUMBER_INT64, 1},
         {"run/largest_step", &run->largest_step, NUMBER_DOUBLE, 1},
         {"run/collapsed_steps", &run->collapsed_steps, NUMBER_INT64, 1},
+        {"run/resumes", &run->resumes, NUMBER_INT64, 3},
         {"run/start_totals", run->start.entry, NUMBER_DOUBLE, LEDGER_ENTRIES},
         {"run/start_kinetic", &run->start.kinetic, NUMBER_DOUBLE, 1},
         {"run/start_internal", &run->start.internal, NUMBER_DOUBLE, 1},
@@ -36,9 +37,7 @@ static struct error *visit_extra(void *context, struct visitor *visitor)
     for (size_t i = 0; i < COUNT_OF(arrays); i++)
         TRY(visitor->visit(visitor, arrays[i].name, arrays[i].number, arrays[i].data,
                            arrays[i].count, 1));
-    if (run->input->checks.count)
-        TRY(visitor->visit(visitor, "run/checks", NUMBER_DOUBLE, run->check_memory,
-                           run->input->checks.count, CHECK_MEMORY_NUMBERS));
+    TRY(run_visit_checks(run, visitor));
     TRY(warnings_visit(run->warnings, visitor));
     TRY(csv_visit_mark(&run->history_mark, "run/history_file", visitor));
     TRY(probes_visit(&run->probes, visitor));
@@ -58,7 +57,7 @@ static struct error *visit_extra(void *context, struct visitor *visitor)
 static struct checkpoint checkpoint_of(struct run *run)
 {
     return (struct checkpoint){&run->simulation, run->method, run->solver,
-                               visit_extra,      run,         run->state_text};
+                               visit_extra,      run,         run->case_text};
 }
 
 /* Counts and marks the rows of the tables, which a resumed run goes on after. */
@@ -94,11 +93,35 @@ struct error *run_checkpoint(struct run *run)
 /* What a kill in the first minutes loses should be a minute. */
 static const double FIRST_CHECKPOINT = 60.0;
 
+/* Before which the remaining time is spread over the last two steps, whose limit is not known yet:
+ * that of the step before may be smaller. */
+static const double STEPS_BEFORE_END = 3.0;
+
+struct error *run_checkpoint_before_end(struct run *run)
+{
+    const struct run_input *end = &run->input->run;
+    const bool near = end->until - run->simulation.time <= STEPS_BEFORE_END * run->limit.dt ||
+                      (end->max_steps > 0 && run->simulation.step + 1 >= end->max_steps);
+    return near && !run->shortened && run->checkpoint_step < run->simulation.step
+               ? run_checkpoint(run)
+               : NULL;
+}
+
+struct error *run_checkpoint_at_end(struct run *run)
+{
+    if (run->shortened && !run->resumes.past_end)
+        return NULL;
+    return run->result->finished && run->checkpoint_step + 1 == run->simulation.step &&
+                   !run->resumes.past_end
+               ? NULL
+               : run_checkpoint(run);
+}
+
 bool run_checkpoint_is_due(const struct run *run)
 {
     const double given = run->input->output.checkpoint;
     const double interval = run->checkpoint_step < 0 ? minimum(given, FIRST_CHECKPOINT) : given;
-    return interval > 0.0 && clock_seconds() - run->last_checkpoint >= interval;
+    return !run->shortened && interval > 0.0 && clock_seconds() - run->last_checkpoint >= interval;
 }
 
 /* No more rows than steps; what was measured at the start is finite. */
@@ -126,11 +149,16 @@ struct error *run_load(struct run *run)
 {
     char *path = run_path(run, "checkpoint.h5");
     struct checkpoint checkpoint = checkpoint_of(run);
+    run_place_probes(run);
     struct error *error = path ? checkpoint_read(path, &checkpoint) : out_of_memory();
+    if (!error)
+        error = ranks_agree(&run->ranks, run_check_end(run));
     if (!error) {
         error = simulation_check_loaded(&run->simulation);
         if (!error)
             error = check_extra(run);
+        if (!error)
+            error = run_follow_changes(run);
         error = ranks_agree(&run->ranks,
                             error_context(error, "%s: is no checkpoint of this case", path));
     }
@@ -198,7 +226,7 @@ struct error *run_save_failure(struct run *run, struct error *error)
         return error;
     struct error *failure = snapshot_of_failure(run);
     if (!failure && run->sound && run->snapshots > 0)
-        failure = run_checkpoint(run);
+        failure = run_checkpoint_at_end(run);
     if (run->checkpoint_step >= 0)
         run_say(run, "checkpoint.h5 holds step %lld, t = %.9g s; --resume continues from there",
                 (long long)run->checkpoint_step, run->checkpoint_time);

@@ -3,6 +3,7 @@
 #define BOLIDE_RUN_INTERNAL_H
 
 #include "base/results.h"
+#include "case/changes.h"
 #include "measure/probes.h"
 #include "measure/profiles.h"
 #include "output/checkpoint.h"
@@ -57,7 +58,13 @@ struct run {
     int64_t snapshot_room;     /* in both */
 
     char *case_text;
-    char *state_text;        /* the case without what does not change the state */
+    struct case_changes changes; /* from the case of the checkpoint that is loaded */
+    struct {
+        int64_t changed;  /* resumes with another case */
+        int64_t segment;  /* those of them with another physics: the part of the run this is */
+        int64_t past_end; /* the state is that of a step that was shortened to end the run */
+    } resumes;
+    bool shortened;          /* a step has been, to end the run */
     int64_t checkpoint_step; /* of checkpoint.h5; -1: there is none */
     double checkpoint_time;  /* s */
     struct results_lock lock;
@@ -116,6 +123,27 @@ struct error *run_probe(const struct simulation_case *input, const struct run_op
                         void *context);
 /* Collective: says what each load has delivered beside what it should have. */
 void run_report_loads(struct run *run);
+
+/* What a resumed run has otherwise (run_changes.c): collective, the difference of the case from
+ * that of the checkpoint, and the errors of what may not change; which of the probes of the
+ * checkpoint each probe is; the memory of checks; after the rest is loaded, what follows from the
+ * changes; the record of them, and lines for the user. */
+struct error *run_find_changes(struct run *run);
+void run_place_probes(struct run *run);
+struct error *run_visit_checks(struct run *run, struct visitor *visitor);
+struct error *run_check_end(const struct run *run);
+struct error *run_follow_changes(struct run *run);
+struct error *run_record_changes(struct run *run);
+void run_report_changes(struct run *run);
+
+/* s; the interval of history.csv. */
+double run_history_interval(const struct run *run);
+
+/* Collective, before a step: keeps a checkpoint where this step may be the first that is shortened
+ * to end the run, so that the run can be extended. */
+struct error *run_checkpoint_before_end(struct run *run);
+/* checkpoint.h5 at the end, unless that is there. */
+struct error *run_checkpoint_at_end(struct run *run);
 
 /* checkpoint.h5 now, and whether its wall-clock time has come. */
 struct error *run_checkpoint(struct run *run);

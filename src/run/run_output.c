@@ -35,30 +35,16 @@ void run_say(struct run *run, const char *format, ...)
     free(text);
 }
 
-static struct error *make_text(const struct simulation_case *input, char **text)
+static struct error *make_case_text(struct run *run)
 {
     size_t size;
-    FILE *memory = open_memstream(text, &size);
+    FILE *memory = open_memstream(&run->case_text, &size);
     if (!memory)
         return out_of_memory();
-    struct error *error = case_write(input, memory);
+    struct error *error = case_write(run->input, memory);
     if (fclose(memory) && !error)
         error = out_of_memory();
     return error;
-}
-
-/* A run may be resumed with another limit of the drift, with checkpoints at other times, with other
- * warnings expected, and with or without fragments: none of these changes the state. */
-static struct error *make_case_texts(struct run *run)
-{
-    struct simulation_case state = *run->input;
-    state.run.energy_drift = 0.0;
-    state.output.checkpoint = 0.0;
-    state.output.fragments = false;
-    state.output.fragment_link = 1.0;
-    state.expected = (struct named_map){0};
-    TRY(make_text(run->input, &run->case_text));
-    return make_text(&state, &run->state_text);
 }
 
 static struct error *make_folder(struct run *run, const char *name)
@@ -114,13 +100,14 @@ struct error *run_check_folder(struct run *run)
     if (!options->output)
         return options->resume ? error_new(ERROR_INPUT, "a run without a folder cannot be resumed")
                                : NULL;
-    struct error *error = make_case_texts(run);
+    struct error *error = make_case_text(run);
     if (!error)
         error = lock_folder(run);
     if (!error)
         error = options->resume ? look_for_checkpoint(run)
                                 : results_check(options->output, options->overwrite);
-    return ranks_agree(&run->ranks, error);
+    TRY(ranks_agree(&run->ranks, error));
+    return options->resume ? ranks_agree(&run->ranks, run_find_changes(run)) : NULL;
 }
 
 static struct error *open_log(struct run *run)
@@ -189,12 +176,14 @@ static void name_files(const struct run *run, struct names *names)
 
 static struct error *begin_results(struct run *run)
 {
+    const struct run_options *options = run->options;
     struct names names = {0};
     name_files(run, &names);
-    struct error *error = names.failed
-                              ? out_of_memory()
-                              : results_begin(run->options->output, run->options->overwrite,
-                                              (const char *const *)names.text);
+    const char *const *text = (const char *const *)names.text;
+    struct error *error = names.failed ? out_of_memory()
+                          : options->resume
+                              ? results_add(options->output, text)
+                              : results_begin(options->output, options->overwrite, text);
     names_free(names.text, (int)names.count);
     return error;
 }
@@ -266,7 +255,7 @@ static struct error *miss_snapshots(struct run *run)
         if (error)
             return error;
         first = gone ? first : i;
-        gone += !there;
+        gone += !there && run->snapshot_hashes[i];
         first_other = others ? first_other : i;
         others += changed;
     }
@@ -292,10 +281,11 @@ static struct error *ready_folder(struct run *run)
         return NULL;
     TRY(folder_make(options->output));
     TRY(lock_folder(run));
-    if (!options->resume)
+    if (!options->resume || run->changes.count)
         TRY(begin_results(run));
     TRY(make_folder(run, "snapshots"));
     TRY(make_folder(run, "pictures"));
+    TRY(run_record_changes(run));
     TRY(write_case(run));
     TRY(open_log(run));
     return options->resume && run->input->output.snapshots ? miss_snapshots(run) : NULL;
@@ -329,7 +319,7 @@ void run_observe(struct run *run)
     run->population = run->simulation.seen[0];
 }
 
-static double history_interval(const struct run *run)
+double run_history_interval(const struct run *run)
 {
     double given = run->input->output.history;
     return isnan(given) ? 0.01 * run->input->run.until : given;
@@ -444,7 +434,7 @@ struct error *run_watch(struct run *run, bool last)
     double clock = clock_seconds(), time = run->simulation.time;
     const int64_t step = run->simulation.step, n = run->snapshots;
     simulation_start_phase(&run->simulation);
-    bool row = interval_is_due(time, history_interval(run), &run->history_due) || last;
+    bool row = interval_is_due(time, run_history_interval(run), &run->history_due) || last;
     bool snapshot =
         interval_is_due(time, run->input->output.every, &run->snapshots_due) || last || n == 0;
     struct totals now = {0};

@@ -125,6 +125,19 @@ struct error *run_agree(struct run *run, struct error *error)
     return NULL;
 }
 
+/* Notes whether the end of the run changes this step, DT to AFTER; and where no checkpoint is there
+ * of the state before, that the run cannot be extended. */
+static void note_end(struct run *run, double dt, double after)
+{
+    const double time = run->simulation.time, event = run->limit.event;
+    const double other = step_towards(run->limit.dt, time, event);
+    const double there = other == event - time ? event : time + other;
+    if (run->shortened || (dt == other && after == there))
+        return;
+    run->shortened = true;
+    run->resumes.past_end = run->resumes.past_end || run->checkpoint_step < run->simulation.step;
+}
+
 struct error *run_take_step(struct run *run)
 {
     struct simulation *simulation = &run->simulation;
@@ -136,6 +149,7 @@ struct error *run_take_step(struct run *run)
     double after = dt == event - simulation->time ? event : simulation->time + dt;
     if (!(dt > 0.0) || !(after > simulation->time))
         return no_step(run);
+    note_end(run, dt, after);
     TRY(run_agree(run, run->method->advance(run->solver, simulation, dt)));
     simulation->time = after;
     simulation->step++;

@@ -28,8 +28,8 @@ const struct parameter sph_table[] = {
     PARAMETER(NUMBER, struct sph_parameters, skin, "0.3",
               "margin of the neighbour lists, relative to the support; it changes the speed, never "
               "the result",
-              .above = 0.0, .below = 1.0),
+              .above = 0.0, .below = 1.0, .change = CHANGE_FREELY),
     PARAMETER(INTEGER, struct sph_parameters, rebuild, "0",
               "rebuild the neighbour lists at least every so many steps; 0: only when they expire",
-              .above = 0, .below = 1e9, .closed = true),
+              .above = 0, .below = 1e9, .closed = true, .change = CHANGE_FREELY),
     PARAMETER_END};

@@ -537,9 +537,9 @@ static void another_case_cannot_go_on_from_a_checkpoint(void **state)
         .threads = 1, .output = fresh_folder("test_run_other"), .max_steps = 1};
     struct run_result result = run_text(flight_text, NULL, &options);
     run_result_free(&result);
-    const char *const longer[] = {"run.until=2s", NULL};
+    const char *const finer[] = {"resolution=1mm", NULL};
     options.resume = true;
-    expect_failure(flight_text, longer, &options, ERROR_INPUT, "another case");
+    expect_failure(flight_text, finer, &options, ERROR_INPUT, "a resumed run cannot change it");
     options.output = fresh_folder("test_run_none");
     expect_failure(flight_text, NULL, &options, ERROR_INPUT, "nothing to resume");
 }

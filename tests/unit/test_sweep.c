@@ -411,7 +411,7 @@ static void results_give_way_only_when_asked(void **state)
     verify_result_free(&result);
 }
 
-/* Of four runs two have ended, and one has only begun. */
+/* Of four runs two have ended, which repeat their last steps, and one has only begun. */
 static void a_sweep_goes_on_where_it_was_left(void **state)
 {
     (void)state;
@@ -423,9 +423,9 @@ static void a_sweep_goes_on_where_it_was_left(void **state)
     error_free(run_all(false, true, &result));
     assert_int_equal(result.count, 4);
     assert_int_equal(result.passed, 2);
-    assert_int_equal(result.item[0].result.updates, 0);
-    assert_true(result.item[1].result.updates > 0 && result.item[2].result.updates > 0);
-    assert_int_equal(result.item[3].result.updates, 0);
+    const int64_t first = result.item[0].result.updates, last = result.item[3].result.updates;
+    assert_true(result.item[1].result.updates > first && result.item[2].result.updates > first);
+    assert_true(first < 40 && last < 40);
     verify_result_free(&result);
     assert_int_equal(access("results/sweep.csv", R_OK), 0);
 }
