@@ -46,6 +46,7 @@ struct body_input {
     bool driven;               /* keeps its velocity whatever pushes back */
     bool frozen;               /* keeps all of its state, and moves with its velocity */
     double stop;               /* s, from then on it stands still; NAN: never */
+    double remove_at;          /* s, when it is taken away; NAN: never */
     int material_index;        /* filled by case_read */
     bool varies;        /* filled by case_read: its state at the start is one of the position */
     struct point start; /* filled by case_read, unless it varies: the state at the start */

@@ -75,7 +75,7 @@ const struct parameter case_material_table[] = {
               "the strength; default: none, a fluid", .kind_of_thing = "strength"),
     PARAMETER(ONE_OF, struct material_input, failure, OPTIONAL,
               "how a solid breaks; default: none, it bears any tension and strain",
-              .kind_of_thing = "failure"),
+              .kind_of_thing = "failure", .change_within = CHANGE_FROM_HERE),
     PARAMETER(ONE_OF, struct material_input, burn, OPTIONAL,
               "how an explosive turns into the products of its equation of state; default: burnt "
               "from the start",
@@ -92,6 +92,6 @@ const struct parameter case_material_table[] = {
         NUMBER, struct material_input, tensile_strength, OPTIONAL,
         "the mean tension above which the run gives a warning, without any effect on results; "
         "default: the tension limit of its models, else a twentieth of the bulk modulus",
-        .unit = "Pa", .below = INFINITY),
+        .unit = "Pa", .below = INFINITY, .change = CHANGE_FREELY),
     PARAMETER_END,
 };

@@ -51,6 +51,10 @@ static const struct parameter body_table[] = {
     PARAMETER(NUMBER, struct body_input, stop, OPTIONAL,
               "time at which the body stops for good; default: never", .unit = "s",
               .below = INFINITY, .closed = true),
+    PARAMETER(NUMBER, struct body_input, remove_at, OPTIONAL,
+              "time at which the body is taken away, with its mass, momentum and energy, which the "
+              "ledger books; default: never (solvers sph, mpm)",
+              .unit = "s", .below = INFINITY, .closed = true, .change = CHANGE_FROM_HERE),
     PARAMETER_END,
 };
 
@@ -164,20 +168,23 @@ const struct parameter case_table[] = {
     PARAMETER(MAP, struct simulation_case, boundaries, OPTIONAL,
               "what is outside the faces of the domain, by name: walls, symmetry, periodic faces, "
               "inflow and outflow; and rigid bodies",
-              .table = case_boundary_table, .size = sizeof(struct boundary_input)),
+              .table = case_boundary_table, .size = sizeof(struct boundary_input),
+              .change = CHANGE_FROM_HERE),
     PARAMETER(MAP, struct simulation_case, loads, OPTIONAL,
               "loads on the surfaces of bodies, by name (solvers mpm, sph)",
-              .table = case_load_table, .size = sizeof(struct load_input)),
+              .table = case_load_table, .size = sizeof(struct load_input),
+              .change_within = CHANGE_FROM_HERE),
     PARAMETER(MAP, struct simulation_case, contacts, OPTIONAL,
               "contact laws, by name; bodies that no law names are bonded, also in tension",
-              .table = case_contact_table, .size = sizeof(struct contact_input)),
+              .table = case_contact_table, .size = sizeof(struct contact_input),
+              .change = CHANGE_FROM_HERE),
     PARAMETER(MAP, struct simulation_case, detonations, OPTIONAL,
               "ignition points of explosives, by name", .table = case_detonation_table,
               .size = sizeof(struct detonation_input)),
     PARAMETER(VECTOR, struct simulation_case, gravity, OPTIONAL,
               "acceleration of everything without prescribed motion, one value per dimension; "
               "default: none",
-              .unit = "m/s^2", .above = -1e15, .below = 1e15),
+              .unit = "m/s^2", .above = -1e15, .below = 1e15, .change = CHANGE_FROM_HERE),
     PARAMETER(TABLE, struct simulation_case, run, REQUIRED, "when the run ends", .table = run_table,
               .change = CHANGE_FREELY),
     PARAMETER(TABLE, struct simulation_case, output, OPTIONAL, "what is written",

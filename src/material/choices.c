@@ -3,7 +3,7 @@
  *
  *   NUMBER(T, member, unit, default, range, help)
  *   CHOICE(T, member, default, help, names...)      an int, the index of the name
- *   COUNT(T, member, default, help)                 an int that is not negative
+ *   COUNT(T, member, default, help)                 an int that is not negative, of the start
  *   FLAG(T, member, default, help)                  a bool
  *
  * T is the struct, and the key in a case is the member's name. A default is text as a user would
@@ -11,6 +11,8 @@
  * parameter.h and choices.h. */
 #include "material/choices.h"
 
+/* After a range: what is decided at the start of a run. */
+#define AT_START(...) __VA_ARGS__, .change = CHANGE_NEVER
 #define ANY .above = 0.0, .below = 0.0
 #define POSITIVE .above = 0.0, .below = INFINITY
 #define NOT_NEGATIVE .above = 0.0, .below = INFINITY, .closed = true
@@ -23,7 +25,7 @@
 #define CHOICE(T, member, as_typed, text, ...) \
     PARAMETER(CHOICE, T, member, as_typed, text, .names = (const char *const[]){__VA_ARGS__, 0}),
 #define COUNT(T, member, as_typed, text) \
-    PARAMETER(INTEGER, T, member, as_typed, text, NOT_NEGATIVE),
+    PARAMETER(INTEGER, T, member, as_typed, text, AT_START(NOT_NEGATIVE)),
 #define FLAG(T, member, as_typed, text) PARAMETER(FLAG, T, member, as_typed, text),
 
 #define EOS_TABLE(name)                                                                            \

@@ -40,8 +40,10 @@ double next_event(const struct simulation *simulation)
 {
     const struct simulation_case *input = simulation->problem->input;
     double event = INFINITY;
-    for (int i = 0; i < input->bodies.count; i++)
+    for (int i = 0; i < input->bodies.count; i++) {
         event = earlier(simulation, event, case_body(input, i)->stop);
+        event = earlier(simulation, event, case_body(input, i)->remove_at);
+    }
     for (int i = 0; i < input->loads.count; i++) {
         event = earlier(simulation, event, case_load(input, i)->after);
         event = earlier(simulation, event, case_load(input, i)->before);

@@ -10,8 +10,8 @@
 #include "parallel/ranks.h"
 
 /* Walls that push; the axis of symmetry, whose hoop stress does; what holds bodies (`driven`,
- * `stop`); gravity; what pushes on surfaces; faces that particles leave through; products that burn
- * in air; what waits between the parts of a coupling. */
+ * `stop`); gravity; what pushes on surfaces; faces that particles leave through; bodies that are
+ * taken away; products that burn in air; what waits between the parts of a coupling. */
 enum ledger_cause {
     LEDGER_WALLS,
     LEDGER_AXIS,
@@ -19,6 +19,7 @@ enum ledger_cause {
     LEDGER_GRAVITY,
     LEDGER_LOADS,
     LEDGER_OUTFLOWS,
+    LEDGER_REMOVED,
     LEDGER_AFTERBURN,
     LEDGER_EXCHANGE,
     LEDGER_CAUSES

@@ -69,6 +69,7 @@ struct simulation {
     struct event event[EVENTS_MAX];
     double time;
     int64_t step;
+    int64_t segment; /* how often what moves it was changed at a resume */
     int phases;
     struct phase phase[PHASES_MAX];
     double phase_end; /* clock_seconds() when the last phase ended; 0: none has begun */

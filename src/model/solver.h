@@ -68,6 +68,7 @@ struct judgement {
 struct solver_class {
     const char *members; /* what it computes with: "cells"; NULL: particles */
     unsigned boundaries; /* that it has: bits 1 << enum boundary_kind, BOUNDARY_PARTS */
+    bool removes;        /* bodies may be taken away, and walls when it is resumed */
     size_t size;         /* bytes of the solver's own state, zeroed before create */
     /* Makes the solver's stores, with fields by the case's parameters PARAMETERS, and shows them as
      * populations (simulation_add_population). Members come after, from `fill` or from a

@@ -247,6 +247,7 @@ void mpm_coarsen(void *parameters, double factor)
 static const struct field_row *const field_tables[] = {field_rows, NULL};
 
 const struct solver_class mpm_class = {.size = sizeof(struct mpm),
+                                       .removes = true,
                                        .boundaries = BOUNDARIES_CLOSED | 1u << BOUNDARY_OUTFLOW,
                                        .create = mpm_create,
                                        .fill = mpm_fill,

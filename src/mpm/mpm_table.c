@@ -39,7 +39,7 @@ const struct parameter mpm_table[] = {
     PARAMETER(NUMBER, struct mpm_parameters, courant, OPTIONAL,
               "K of dt = min K h/(c + max |u_i|), h the cell; default: 0.2 with fluids, 0.8 with "
               "`shape: quadratic` or `cubic`, `transfer: flip` and `order: 1`, else 0.5",
-              .above = COURANT_LEAST, .below = 1.0),
+              .above = COURANT_LEAST, .below = 1.0, .change = CHANGE_FROM_HERE),
     PARAMETER(CHOICE, struct mpm_parameters, quadrature, "faces",
               "integration of the stress for nodal forces; faces: means on the faces between "
               "nodes, so that a uniform stress gives no force; needs `energy: conserved` and "
@@ -58,11 +58,11 @@ const struct parameter mpm_table[] = {
     PARAMETER(NUMBER, struct mpm_parameters, viscosity_quadratic, "1.5",
               "b2 of the artificial viscosity q = rho h (b2 h d^2 - b1 c d) in compression, d < 0 "
               "the volumetric strain rate",
-              .above = 0.0, .below = 1e3, .closed = true),
+              .above = 0.0, .below = 1e3, .closed = true, .change = CHANGE_FROM_HERE),
     PARAMETER(NUMBER, struct mpm_parameters, viscosity_linear, OPTIONAL,
               "b1 of the artificial viscosity; default: 0.06, and up to 0.2 in shocks in solids "
               "and in explosives that burn by a rate",
-              .above = 0.0, .below = 1e3, .closed = true),
+              .above = 0.0, .below = 1e3, .closed = true, .change = CHANGE_FROM_HERE),
     PARAMETER(NUMBER, struct mpm_parameters, viscosity_unresolved, OPTIONAL,
               "b3 of the viscous pressure -b3 rho h c w in solids, where w is the part of the "
               "volumetric strain rate that the nodes do not resolve. That part then does not "

@@ -223,6 +223,7 @@ static void write_line(FILE *file, bool head, const struct row *row)
     range_columns(&line, "pressure", "Pa", row->pressure);
     range_columns(&line, "speed", "m/s", row->speed);
     load_columns(&line, simulation, row->loads);
+    column(&line, "segment", "", "", (double)simulation->segment);
     putc('\n', file);
 }
 

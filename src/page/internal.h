@@ -11,7 +11,7 @@
 struct page {
     const char *folder;
     FILE *file;
-    struct csv summary, checks, history;
+    struct csv summary, checks, history, changes;
     struct csv sweep;      /* of a sweep: its table; SUMMARY is that of its first run */
     struct csv statistics; /* of a sweep with repetitions */
 };

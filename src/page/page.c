@@ -119,6 +119,30 @@ static struct error *put_viewer(const struct page *page)
     return error;
 }
 
+/* What was changed when the run was resumed; nothing where nothing was. */
+static void put_changes(const struct page *page)
+{
+    const struct csv *table = &page->changes;
+    if (!table->rows)
+        return;
+    fputs("<section id=\"changes\"><h2>Changed when it was resumed</h2>\n<table><tr><th>step</th>"
+          "<th>time</th><th>key</th><th>before</th><th>after</th></tr>\n",
+          page->file);
+    for (int64_t row = 0; row < table->rows; row++) {
+        fputs("<tr><td>", page->file);
+        page_text(page->file, csv_field(table, row, csv_column(table, "step")));
+        fputs("</td><td>", page->file);
+        page_quantity(page->file, csv_number(table, row, csv_column(table, "time [s]")), "s");
+        static const char *const columns[] = {"key", "before", "after"};
+        for (size_t k = 0; k < COUNT_OF(columns); k++) {
+            fputs("</td><td>", page->file);
+            page_text(page->file, csv_field(table, row, csv_column(table, columns[k])));
+        }
+        fputs("</td></tr>\n", page->file);
+    }
+    fputs("</table></section>\n", page->file);
+}
+
 static struct error *put_page(const struct page *page)
 {
     const char *title = summary_value(&page->summary, "run", NULL, "title");
@@ -135,6 +159,7 @@ static struct error *put_page(const struct page *page)
         return NULL;
     }
     page_verdict(page);
+    put_changes(page);
     TRY(page_pictures(page));
     TRY(put_viewer(page));
     TRY(page_profiles(page));
@@ -181,6 +206,7 @@ static struct error *read_run(const char *folder, struct page *page)
     TRY(look_for_run(folder));
     TRY(page_read_table(folder, "summary.csv", &page->summary));
     TRY(page_read_table(folder, "checks.csv", &page->checks));
+    TRY(page_read_table(folder, "changes.csv", &page->changes));
     return page_read_table(folder, "history.csv", &page->history);
 }
 
@@ -210,6 +236,7 @@ struct error *page_write(const char *folder)
     csv_free(&page.statistics);
     csv_free(&page.summary);
     csv_free(&page.checks);
+    csv_free(&page.changes);
     csv_free(&page.history);
     return error;
 }

@@ -135,6 +135,22 @@ static void strong_contacts(struct findings *findings, double largest)
     free(summary);
 }
 
+/* Bodies that are to be taken away by a solver that cannot. */
+static void judge_removals(struct findings *findings)
+{
+    const struct simulation_case *input = findings->input;
+    const struct solver_class *method = input->solver.choice->thing;
+    for (int i = 0; i < input->bodies.count && !method->removes; i++) {
+        char *name = isnan(case_body(input, i)->remove_at)
+                         ? NULL
+                         : text_format("%s.remove_at", input->bodies.names[i]);
+        if (name)
+            finding_add(findings, FINDING_WRONG, "bodies", name,
+                        "only the solvers sph and mpm take bodies away");
+        free(name);
+    }
+}
+
 struct judgement judge_solver(const struct simulation *simulation)
 {
     const struct simulation_case *input = simulation->problem->input;
@@ -148,6 +164,7 @@ struct judgement judge_solver(const struct simulation *simulation)
     rod_cells(findings);
     judge_explosives(findings);
     judge_limits(findings);
+    judge_removals(findings);
     ignitions_judge(findings);
     loads_judge(findings);
     return judgement;

@@ -19,6 +19,7 @@
 #include "measure/fragments.h"
 #include "model/generate.h"
 #include "model/maps.h"
+#include "model/particles/held.h"
 #include "run/fit_axes.h"
 #include "run/forecast.h"
 #include "run/pictures.h"
@@ -111,6 +112,20 @@ static struct error *take_step(struct run *run)
     return NULL;
 }
 
+/* Takes away the bodies whose time has come. */
+static struct error *remove_due(struct run *run)
+{
+    struct simulation *s = &run->simulation;
+    const bool due = remove_bodies(s, run->removed_until);
+    run->removed_until = s->time;
+    if (!due)
+        return NULL;
+    TRY(ranks_agree(&run->ranks, simulation_commit(s)));
+    run->particles = simulation_members(s);
+    run_observe(run);
+    return NULL;
+}
+
 static struct error *loop(struct run *run)
 {
     const struct check_moment beginning = moment_of(run);
@@ -121,6 +136,7 @@ static struct error *loop(struct run *run)
     TRY(run_agree(run, NULL));
     while (!at_stop(run)) {
         TRY(run_checkpoint_before_end(run));
+        TRY(remove_due(run));
         TRY(take_step(run));
         adapt_threads(run);
         run_observe(run);
@@ -376,6 +392,7 @@ static struct run *run_new(const struct simulation_case *input, const struct run
     run->ranks = options->ranks ? *options->ranks : ranks_alone();
     run->history_step = run->checkpoint_step = -1;
     run->sound = true;
+    run->removed_until = -INFINITY;
     run->checkpoints_requested = options->checkpoints ? *options->checkpoints : 0;
     return run;
 }

@@ -27,17 +27,39 @@ static const char *shown(const char *value, char *text, size_t size)
     return text;
 }
 
+static bool starts_with(const char *text, const char *start)
+{
+    return !strncmp(text, start, strlen(start));
+}
+
+/* Why a boundary may not change so, though others may; NULL: it may. The order of the store depends
+ * on what is periodic and on where the domain ends. */
+static const char *boundary_stays(const struct run *run, const struct case_change *change)
+{
+    const bool entry = !strchr(change->key + strlen("boundaries."), '.');
+    const struct solver_class *method = run->input->solver.choice->thing;
+    if (strstr(change->before, "periodic") || strstr(change->after, "periodic"))
+        return "a resumed run keeps its periodic faces";
+    if (entry && !*change->before)
+        return "a resumed run gets no new boundary";
+    return entry && !method->removes ? "with this solver a resumed run keeps its boundaries; their "
+                                       "`kind` and what is outside may change"
+                                     : NULL;
+}
+
 /* The error of a change that may not be; NULL where it may. */
 static struct error *refuse(const struct run *run, const struct case_change *change)
 {
     const char *why = NULL;
     char before[64], after[64];
     if (change->class == CHANGE_NEVER)
-        why = !strncmp(change->key, "probes.", 7)
+        why = starts_with(change->key, "probes.")
                   ? "a probe that has begun keeps its keys; give the new one another name"
                   : "a resumed run cannot change it; run the case from the start into another "
                     "folder";
-    else if (change->class == CHANGE_FROM_HERE && !run->options->change)
+    else if (change->class == CHANGE_FROM_HERE && starts_with(change->key, "boundaries."))
+        why = boundary_stays(run, change);
+    if (!why && change->class == CHANGE_FROM_HERE && !run->options->change)
         why = "--change lets the run continue with the new value";
     if (!why)
         return NULL;
@@ -138,6 +160,7 @@ struct error *run_follow_changes(struct run *run)
     if (run->resumes.changed < 0 || run->resumes.changed > MOST || run->resumes.segment < 0 ||
         run->resumes.segment > run->resumes.changed)
         return error_new(ERROR_SYSTEM, "run/resumes is not what a run counts");
+    run->simulation.segment = run->resumes.segment;
     if (!run->changes.count)
         return NULL;
     bool from_here = false;
@@ -145,6 +168,7 @@ struct error *run_follow_changes(struct run *run)
         from_here = from_here || run->changes.item[i].class == CHANGE_FROM_HERE;
     run->resumes.changed++;
     run->resumes.segment += from_here;
+    run->simulation.segment = run->resumes.segment;
     const double time = run->simulation.time;
     run->history_due = run->snapshots_due = 0;
     interval_is_due(time, run_history_interval(run), &run->history_due);

@@ -65,6 +65,7 @@ struct run {
         int64_t past_end; /* the state is that of a step that was shortened to end the run */
     } resumes;
     bool shortened;          /* a step has been, to end the run */
+    double removed_until;    /* s, the time of the bodies that were taken away last */
     int64_t checkpoint_step; /* of checkpoint.h5; -1: there is none */
     double checkpoint_time;  /* s */
     struct results_lock lock;

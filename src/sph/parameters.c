@@ -16,7 +16,7 @@ const struct parameter sph_table[] = {
               "Courant number K; contact, standard and muscl: dt = min K D/sqrt(C^2 + (4 D div "
               "U)^2); contact is stable up to 0.8 with smoothing 1, muscl up to 0.45; hllc and "
               "monaghan: dt = min K h/C; default: 0.4, for hllc and monaghan 0.3",
-              .above = COURANT_LEAST, .below = 1.0),
+              .above = COURANT_LEAST, .below = 1.0, .change = CHANGE_FROM_HERE),
     PARAMETER(CHOICE, struct sph_parameters, conduction, "none",
               "heat conduction, for contact, standard and muscl; contact: with the contact "
               "temperature of two half-spaces; harmonic: with the harmonic mean of conductivities",

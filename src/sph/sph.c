@@ -343,6 +343,7 @@ static void sph_judge(const void *parameters, const struct simulation *simulatio
 }
 
 const struct solver_class sph_class = {.size = sizeof(struct sph),
+                                       .removes = true,
                                        .boundaries = BOUNDARIES_CLOSED | 1u << BOUNDARY_PERIODIC,
                                        .create = sph_create,
                                        .fill = sph_fill,

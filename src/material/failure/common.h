@@ -34,11 +34,11 @@ struct failing {
            "of failed material: its largest Mises stress over its pressure; that stress is at " \
            "most the yield stress")
 #define FAILURE_SCATTER(T)                                                                      \
-    NUMBER(T, weibull_modulus, "", OPTIONAL, POSITIVE,                                          \
+    NUMBER(T, weibull_modulus, "", OPTIONAL, AT_START(POSITIVE),                                \
            "Weibull modulus of the strength (or of the strain or work at failure), which then " \
            "varies from particle to particle; the given value is the characteristic one; "      \
            "default: no variation")                                                             \
-    NUMBER(T, weibull_volume, "m^3", OPTIONAL, POSITIVE,                                        \
+    NUMBER(T, weibull_volume, "m^3", OPTIONAL, AT_START(POSITIVE),                              \
            "volume for which the given strength is the characteristic one; larger particles "   \
            "are weaker; default: the volume of each particle")                                  \
     COUNT(T, seed, "1", "seed of the random strengths: another seed is another specimen")

@@ -29,7 +29,7 @@ struct failure_spall {
            "standing: when the edge of the tension stands still, so that a pulse of several " \
            "strengths breaks off layer after layer; with SPH",                                \
            "at-once", "standing")                                                             \
-    NUMBER(T, growth, "", "0", NOT_NEGATIVE,                                                  \
+    NUMBER(T, growth, "", "0", AT_START(NOT_NEGATIVE),                                        \
            "volume of the voids over that of the material at which it fails; while they "     \
            "grow, the mean tension falls from the strength to zero; 0: it fails at once")     \
     FAILURE_COMMON(T)

@@ -1,6 +1,7 @@
 /* The particles of bodies that something outside holds, and what it takes to stop them. */
 #include "model/particles/held.h"
 
+#include "model/particles/population.h"
 #include "particle/particles.h"
 
 void act_on_particles(struct simulation *simulation, const struct particles *p,
@@ -33,6 +34,36 @@ static void stop_particle(const struct simulation *simulation, const struct part
 void stop_bodies(struct simulation *simulation, const struct particles *particles)
 {
     act_on_particles(simulation, particles, body_stands, stop_particle, NULL);
+}
+
+static void remove_body(struct simulation *simulation, struct particles *p, int body)
+{
+    for (int32_t i = 0; i < p->count; i++) {
+        if (p->body[i] != body)
+            continue;
+        const double m = p->mass[i];
+        const struct vec3 velocity = vector_at(p->velocity[i]);
+        ledger_book(&simulation->ledger, LEDGER_REMOVED, -m, vec3_scale(-m, velocity),
+                    vector_at(p->position[i]),
+                    -m * (p->energy[i] + 0.5 * vec3_dot(velocity, velocity)));
+        particles_delete(p, i);
+    }
+}
+
+bool remove_bodies(struct simulation *simulation, double since)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    bool any = false;
+    for (int body = 0; body < input->bodies.count; body++) {
+        const double at = case_body(input, body)->remove_at;
+        if (!(at > since && at <= simulation->time))
+            continue;
+        any = true;
+        for (int k = 0; k < simulation->populations; k++)
+            if (simulation->population[k].type == &particle_population)
+                remove_body(simulation, particles_in(&simulation->population[k]), body);
+    }
+    return any;
 }
 
 /* A body, and its new velocity after a step; NAN: the component stays. */

@@ -19,6 +19,10 @@ void act_on_particles(struct simulation *simulation, const struct particles *par
 /* Brings bodies to rest whose time has come, and books what that takes. */
 void stop_bodies(struct simulation *simulation, const struct particles *particles);
 
+/* Marks the particles of bodies that are taken away after SINCE and up to now, and books what goes
+ * with them; simulation_commit takes them out. True where there are such bodies. */
+bool remove_bodies(struct simulation *simulation, double since);
+
 /* Gives driven bodies whose velocity is one of the time that at the end of a step of DT, and books
  * what that takes. They have moved with the velocity at its begin, and come to where the mean of
  * both takes them. ERROR_STATE: it is not finite. */
