@@ -249,6 +249,17 @@ void case_check_boundary(struct checking *checking, int index)
             break; /* one of many that are alike is enough */
 }
 
+void case_check_fine(struct checking *checking, int index)
+{
+    const struct simulation_case *input = checking->input;
+    const struct one_of *shape = &case_fine(input, index)->shape;
+    if (!shape->choice || !case_dimension_known(checking) || case_is_wrong(checking, ""))
+        return;
+    const char *text = shape_wrong(shape, (int)input->dimension);
+    if (text)
+        case_wrong(checking, "", "%s", text);
+}
+
 const char *boundary_state_at(const struct boundary_input *boundary,
                               const struct material *material, struct vec3 place, double time,
                               struct point *point, double velocity[3], const char **key)

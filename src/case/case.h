@@ -72,6 +72,11 @@ struct domain_input {
     struct vector_value low, high; /* count 0: the boundaries', else the bounds of all bodies */
 };
 
+/* fine: NAME: {box: ...}: where cells are of the finest level. */
+struct fine_input {
+    struct one_of shape; /* "shape" */
+};
+
 /* start: {from: FILE}: a blast that another case has computed in 1-D takes the place of what the
  * bodies say within its reach. */
 struct start_input {
@@ -334,6 +339,8 @@ struct simulation_case {
     int64_t dimension;
     int geometry; /* enum case_geometry; plane strain stands for a plane wave in 1-D, too */
     double resolution;
+    int64_t levels;             /* of cells, the finest of `resolution` */
+    struct named_map fine;      /* struct fine_input */
     struct one_of solver;       /* "solver" */
     struct named_map materials; /* struct material_input */
     struct named_map bodies;    /* struct body_input */
@@ -466,6 +473,7 @@ double detonation_arrival(const struct simulation_case *input, int body, struct 
 CASE_ITEM(material, materials)
 CASE_ITEM(body, bodies)
 CASE_ITEM(boundary, boundaries)
+CASE_ITEM(fine, fine)
 CASE_ITEM(load, loads)
 CASE_ITEM(contact, contacts)
 CASE_ITEM(detonation, detonations)

@@ -463,6 +463,7 @@ struct error *case_check_meaning(struct simulation_case *input)
     case_check_domain(&checking);
     case_check_start(&checking);
     check_map(&checking, "boundaries", &input->boundaries, case_check_boundary);
+    check_map(&checking, "fine", &input->fine, case_check_fine);
     check_map(&checking, "loads", &input->loads, case_check_load);
     case_check_gravity(&checking);
     checking.map = "output";

@@ -75,6 +75,7 @@ static void check_names(struct checking *checking)
     } maps[] = {{"materials", &input->materials, false},
                 {"bodies", &input->bodies, false},
                 {"boundaries", &input->boundaries, false},
+                {"fine", &input->fine, false},
                 {"loads", &input->loads, false},
                 {"contacts", &input->contacts, false},
                 {"detonations", &input->detonations, false},

@@ -56,6 +56,7 @@ void case_check_domain(struct checking *checking);
 void case_check_start(struct checking *checking);
 void case_check_map(struct checking *checking, int index);
 void case_check_boundary(struct checking *checking, int index);
+void case_check_fine(struct checking *checking, int index);
 void case_check_load(struct checking *checking, int index);
 /* What is driven may follow the time, all of it alike. */
 void case_check_driven(struct checking *checking, const struct body_input *body);

@@ -58,6 +58,15 @@ static const struct parameter body_table[] = {
     PARAMETER_END,
 };
 
+static const struct parameter fine_table[] = {
+    {.kind = PARAMETER_ONE_OF,
+     .offset = offsetof(struct fine_input, shape),
+     .standard = REQUIRED,
+     .kind_of_thing = "shape",
+     .help = "a shape: blocks of cells that meet the box around it are of the finest level"},
+    PARAMETER_END,
+};
+
 static const struct parameter run_table[] = {
     PARAMETER(NUMBER, struct run_input, until, REQUIRED, "the time at which the run ends",
               .unit = "s", .below = INFINITY),
@@ -153,6 +162,14 @@ const struct parameter case_table[] = {
         .names = geometry_names),
     PARAMETER(NUMBER, struct simulation_case, resolution, REQUIRED, "particle spacing at the start",
               .unit = "m", .below = INFINITY),
+    PARAMETER(INTEGER, struct simulation_case, levels, "1",
+              "number of levels of cells (gas): those of the finest are as wide as `resolution`, "
+              "those of each next one twice as wide; where `fine` asks for nothing else, cells are "
+              "as coarse as can be",
+              .above = 1, .below = 8, .closed = true),
+    PARAMETER(MAP, struct simulation_case, fine, OPTIONAL,
+              "with several `levels`, where cells are of the finest, by name", .table = fine_table,
+              .size = sizeof(struct fine_input)),
     PARAMETER(ONE_OF, struct simulation_case, solver, REQUIRED, "the solver",
               .kind_of_thing = "solver"),
     PARAMETER(MAP, struct simulation_case, materials, REQUIRED, "materials by name",

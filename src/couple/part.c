@@ -206,7 +206,7 @@ void part_burn(struct particles *particles, int32_t i)
 
 int32_t part_cell(const struct cell_blocks *cells, const int64_t at[3], int32_t *block)
 {
-    const struct cell_block *found = cell_block_find(cells, cell_block_key(cells->dimension, at));
+    const struct cell_block *found = cell_block_at(cells, 0, at);
     if (!found)
         return -1;
     int32_t i = found->first;

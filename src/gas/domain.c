@@ -2,9 +2,11 @@
  * no rule of the halo fills, and what leaves through faces. */
 #include <stdio.h>
 
+#include "base/memory.h"
 #include "gas/gas_internal.h"
 #include "material/material.h"
 #include "model/boundaries.h"
+#include "parallel/block.h"
 #include "shape/shape.h"
 
 /* A face inside the domain would be none. */
@@ -53,6 +55,28 @@ static struct error *check_filled(const struct place *place, const struct face_p
     return error;
 }
 
+struct error *gas_take_levels(const struct simulation *simulation, struct cell_blocks *cells)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    cells->levels = simulation->problem->place.is_part ? 1 : (int)input->levels;
+    if (cells->levels < 2)
+        return NULL;
+    cells->region = memory_allocate(((size_t)input->fine.count + 1) * sizeof *cells->region);
+    if (!cells->region)
+        return out_of_memory();
+    for (int k = 0; k < input->fine.count; k++) {
+        const struct bounds box = shape_bounds(&case_fine(input, k)->shape);
+        struct cell_region *region = &cells->region[cells->regions++];
+        for (int axis = 0; axis < 3; axis++) {
+            const double low = vec3_at(box.low, axis) + 1e-6 * cells->edge,
+                         high = vec3_at(box.high, axis) - 1e-6 * cells->edge;
+            region->low[axis] = cell_index(low, cells->edge, INT32_MAX);
+            region->high[axis] = cell_index(high, cells->edge, INT32_MAX) + 1;
+        }
+    }
+    return NULL;
+}
+
 struct error *gas_find_domain(const struct simulation *simulation, struct cell_blocks *cells)
 {
     static const double reach = 1e9; /* cells; beyond, places lose too many digits */
@@ -95,7 +119,19 @@ struct error *gas_find_domain(const struct simulation *simulation, struct cell_b
     double all = 1.0;
     for (int axis = 0; axis < cells->dimension; axis++)
         all *= (double)(cells->high[axis] - cells->low[axis]);
-    if (all > 2e9 * simulation->ranks->size)
+    const int64_t width = (int64_t)1 << (cells->levels > 1 ? cells->levels : 0);
+    for (int axis = 0; axis < cells->dimension; axis++)
+        for (int side = 0; side < 2; side++)
+            if ((side ? cells->high : cells->low)[axis] % width != 0)
+                error = error_join(
+                    error,
+                    input_error(input, face[axis][side].section, face[axis][side].name,
+                                "with %d levels the faces of the domain lie on planes of two "
+                                "of the widest cells: choose a multiple of %.6g m along %c",
+                                cells->levels, (double)width * edge, "xyz"[axis]));
+    if (error)
+        return error;
+    if (all > 2e9 * simulation->ranks->size && cells->levels < 2)
         return input_error(input, "resolution", NULL,
                            "the domain has %.3g cells, and a rank computes 2e9 at most", all);
     const struct face_place(*faces)[2] = (const struct face_place(*)[2])face;
@@ -251,10 +287,11 @@ static double from_source(const struct gas *gas, const struct cell_blocks *cells
 static void row_place(const struct cell_blocks *cells, const struct cell_block *block, int first,
                       int second, int row, double at[3])
 {
+    const double edge = cell_block_edge(cells, block);
     const int64_t cell[2] = {block->corner[first] + row % block->count[first],
                              block->corner[second] + row / block->count[first]};
-    at[first] = first < cells->dimension ? ((double)cell[0] + 0.5) * cells->edge : 0.0;
-    at[second] = second < cells->dimension ? ((double)cell[1] + 0.5) * cells->edge : 0.0;
+    at[first] = first < cells->dimension ? ((double)cell[0] + 0.5) * edge : 0.0;
+    at[second] = second < cells->dimension ? ((double)cell[1] + 0.5) * edge : 0.0;
 }
 
 static struct error *fill_plane(const struct gas *gas, const struct simulation *simulation,
@@ -264,7 +301,7 @@ static struct error *fill_plane(const struct gas *gas, const struct simulation *
     const struct cell_blocks *cells = gas->cells;
     const struct cell_block *block = &cells->block[filled->block];
     const int first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2, rows = block->count[first];
-    const double edge = cells->edge;
+    const double edge = cell_block_edge(cells, block);
     const bool closed = is_closed(simulation, cells, axis, filled->side);
     for (int j = 0; j < block->count[second]; j++)
         for (int i = 0; i < rows; i++) {
@@ -274,7 +311,7 @@ static struct error *fill_plane(const struct gas *gas, const struct simulation *
             if (gas->layout.burnt >= 0)
                 number[gas->layout.burnt] = 1.0;
             row_place(cells, block, first, second, i + j * rows, at);
-            at[axis] = (double)(filled->side ? cells->high : cells->low)[axis] * edge;
+            at[axis] = (double)(filled->side ? cells->high : cells->low)[axis] * cells->edge;
             const int b = boundary_at(input, axis, filled->side, vec3_make(at[0], at[1], at[2]));
             const bool mirror =
                 b < 0 ? closed : boundary_kind_closes(case_boundary(input, b)->kind);
@@ -325,13 +362,12 @@ static bool is_watched(const struct gas *gas, const double at[3], int axis, doub
     return inside;
 }
 
-/* Books what a FLUX along AXIS has brought to the gas above a face at AT, or, with SIGN -1, to that
- * below. */
-static void book(const struct gas *gas, const struct simulation *simulation, int axis,
+/* Books what a FLUX along AXIS has brought to the gas above a face at AT of a cell of EDGE, or,
+ * with SIGN -1, to that below. */
+static void book(const struct gas *gas, const struct simulation *simulation, int axis, double edge,
                  const double at[3], const double *flux, double sign, double dt,
                  enum ledger_cause cause, struct ledger *ledger)
 {
-    const double edge = gas->cells->edge;
     if (is_watched(gas, at, axis, sign))
         return;
     const double amount = sign * dt * area_of(simulation, edge, at);
@@ -351,18 +387,19 @@ void gas_book(const struct gas *gas, const struct simulation *simulation,
     const struct cell_block *low = &cells->block[strip->block[0]],
                             *high = &cells->block[strip->block[strip->count - 1]];
     const int first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2, rows = low->count[first];
-    const double edge = cells->edge;
+    const double edge = cell_block_edge(cells, low);
     const int64_t end = high->corner[axis] + high->count[axis];
     for (int row = 0; row < rows * low->count[second]; row++)
         for (int side = 0; side < 2; side++) {
             const enum cell_face face = gas->halo.face[axis][side];
-            if ((side ? end != cells->high[axis] : low->corner[axis] != cells->low[axis]) ||
+            if ((side ? end : low->corner[axis]) !=
+                    cell_domain_end(cells, low->level, axis, side) ||
                 face == CELL_FACE_PERIODIC)
                 continue;
             double at[3] = {0.0, 0.0, 0.0};
             row_place(cells, low, first, second, row, at);
-            at[axis] = (double)(side ? cells->high : cells->low)[axis] * edge;
-            book(gas, simulation, axis, at, through->end[side][row], side ? -1.0 : 1.0, dt,
+            at[axis] = (double)(side ? cells->high : cells->low)[axis] * cells->edge;
+            book(gas, simulation, axis, edge, at, through->end[side][row], side ? -1.0 : 1.0, dt,
                  face == CELL_FACE_MIRROR ? LEDGER_WALLS : LEDGER_OUTFLOWS, ledger);
         }
     for (int row = 0; row < rows * low->count[second] && axis == 0 && gas->round; row++) {
@@ -378,7 +415,7 @@ void gas_book(const struct gas *gas, const struct simulation *simulation,
         double at[3] = {0.0, 0.0, 0.0};
         row_place(cells, low, first, second, through->obstacle[k].row, at);
         at[axis] = (double)(low->corner[axis] + through->obstacle[k].face) * edge;
-        book(gas, simulation, axis, at, through->obstacle[k].flux,
+        book(gas, simulation, axis, edge, at, through->obstacle[k].flux,
              (double)through->obstacle[k].side, dt, LEDGER_WALLS, ledger);
     }
 }

@@ -25,6 +25,7 @@ struct filling {
     struct bounds *bounds; /* of each body */
     int *near, nears;      /* bodies that meet the block */
     int *here, heres;      /* bodies among them that meet the cell */
+    double edge;           /* of the cells of the block, m */
     double around; /* the pressure at which an explosive that is lit rests: that of the gas, Pa */
     struct error *error;
 };
@@ -114,12 +115,12 @@ static void add_state(struct filling *f, int body, struct vec3 place, double wei
 }
 
 /* The K-th of POINTS^dimension points of a cell, at PART of its edge along each axis. */
-static struct vec3 point_of(const struct cell_blocks *cells, const double centre[3],
-                            const double *part, int points, int64_t k)
+static struct vec3 point_of(const struct filling *f, const double centre[3], const double *part,
+                            int points, int64_t k)
 {
     double at[3] = {0.0, 0.0, 0.0};
-    for (int axis = 0; axis < cells->dimension; axis++) {
-        at[axis] = centre[axis] + part[k % points] * cells->edge;
+    for (int axis = 0; axis < f->gas->cells->dimension; axis++) {
+        at[axis] = centre[axis] + part[k % points] * f->edge;
         k /= points;
     }
     return vector_at(at);
@@ -150,11 +151,11 @@ static bool has_all(struct filling *f, int body, const double centre[3])
         const struct bounds *b = &f->bounds[f->here[k]];
         const double size[3] = {b->high.x - b->low.x, b->high.y - b->low.y, b->high.z - b->low.z};
         for (int axis = 0; axis < cells->dimension && f->heres > 1; axis++)
-            if (size[axis] < 2.0 * cells->edge)
+            if (size[axis] < 2.0 * f->edge)
                 return false;
     }
     for (int64_t k = 0; k < points_in(2, cells->dimension); k++) {
-        const struct vec3 place = point_of(cells, centre, corner, 2, k);
+        const struct vec3 place = point_of(f, centre, corner, 2, k);
         if (body_at(f, place) != body && !place_blocks(&f->simulation->problem->place, place))
             return false;
     }
@@ -169,7 +170,7 @@ static void fill_whole(struct filling *f, int body, const double centre[3], doub
     const int points = case_body(f->simulation->problem->input, body)->varies ? 2 : 1;
     double all = 0.0;
     for (int64_t k = 0; k < points_in(points, cells->dimension); k++) {
-        const struct vec3 place = point_of(cells, centre, points == 2 ? gauss : middle, points, k);
+        const struct vec3 place = point_of(f, centre, points == 2 ? gauss : middle, points, k);
         const double weight = points == 1 ? 1.0 : weight_of(f, place); /* exact where it can be */
         add_state(f, body, place, weight, sum);
         all += weight;
@@ -186,7 +187,7 @@ static void fill_parts(struct filling *f, const double centre[3], double *sum)
     for (int k = 0; k < parts; k++)
         part[k] = (k + 0.5) / parts - 0.5;
     for (int64_t k = 0; k < points_in(parts, cells->dimension) && !f->error; k++) {
-        const struct vec3 place = point_of(cells, centre, part, parts, k);
+        const struct vec3 place = point_of(f, centre, part, parts, k);
         const int body = body_at(f, place);
         const double weight = weight_of(f, place);
         if (body >= 0) {
@@ -209,8 +210,8 @@ static void fill_cell(struct filling *f, int32_t i)
     const struct vec3 place = vector_at(centre);
     double low[3], high[3], sum[FILLS] = {0.0};
     for (int axis = 0; axis < 3; axis++) {
-        low[axis] = centre[axis] - 0.5 * cells->edge;
-        high[axis] = centre[axis] + 0.5 * cells->edge;
+        low[axis] = centre[axis] - 0.5 * f->edge;
+        high[axis] = centre[axis] + 0.5 * f->edge;
     }
     f->heres = 0;
     for (int k = 0; k < f->nears; k++)
@@ -249,9 +250,10 @@ static void fill_block(struct filling *f, const struct cell_block *block)
 {
     const struct cell_blocks *cells = f->gas->cells;
     double low[3], high[3];
+    f->edge = cell_block_edge(cells, block);
     for (int axis = 0; axis < 3; axis++) {
-        low[axis] = (double)block->corner[axis] * cells->edge;
-        high[axis] = (double)(block->corner[axis] + block->count[axis]) * cells->edge;
+        low[axis] = (double)block->corner[axis] * f->edge;
+        high[axis] = (double)(block->corner[axis] + block->count[axis]) * f->edge;
     }
     f->nears = 0;
     for (int b = 0; b < f->simulation->problem->input->bodies.count; b++)

@@ -35,9 +35,18 @@ static const struct field_row field_rows[] = {
     {.field = {"open", NULL, "1, or 0 where an obstacle blocks the cell", NUMBER_DOUBLE, 1,
                FIELD_STATE | FIELD_FRACTION}},
     {.field = {"gamma", NULL, "pressure over energy per volume", NUMBER_DOUBLE, 1, FIELD_STATE}},
+    {.field = {"size", "m", "edge of the cell", NUMBER_DOUBLE, 1, FIELD_DERIVED}},
     FIELD_ROWS_END,
 };
-enum { FIELD_SECOND = 6, FIELD_AFTERBURNT = 8, FIELD_BURNT, FIELD_OPEN, FIELD_GAMMA, OWN_FIELDS };
+enum {
+    FIELD_SECOND = 6,
+    FIELD_AFTERBURNT = 8,
+    FIELD_BURNT,
+    FIELD_OPEN,
+    FIELD_GAMMA,
+    FIELD_SIZE,
+    OWN_FIELDS
+};
 
 void gas_lay_out(struct gas_layout *layout)
 {
@@ -59,6 +68,7 @@ static struct error *make_store(struct cell_blocks *cells, const struct gas_layo
                                  : k == FIELD_AFTERBURNT ? layout->afterburns
                                  : k == FIELD_BURNT      ? layout->lit
                                  : k == FIELD_OPEN       ? layout->blocked
+                                 : k == FIELD_SIZE       ? cells->levels > 1
                                                          : layout->marked))
             own[count++] = field_rows[k].field;
     return cell_blocks_create(cells, own, count);
@@ -144,6 +154,7 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
         return out_of_memory();
     cells->dimension = simulation->problem->dimension;
     cells->edge = simulation->problem->place.resolution;
+    TRY(gas_take_levels(simulation, cells));
     cells->ranks = simulation->ranks;
     cells->partition = &simulation->partition;
     cells->threads = simulation->threads;
@@ -390,6 +401,7 @@ static void gas_destroy(void *solver)
 {
     struct gas *gas = solver;
     gas_free_strips(gas);
+    gas_free_seams(gas);
     gas_free_markers(gas);
     cell_halo_free(&gas->halo);
     for (int n = 0; n < GAS_FIELDS; n++)

@@ -23,6 +23,24 @@ struct gas_strips {
     struct gas_strip *strip;
 };
 
+/* An end of a block where levels meet: the blocks beside it, all finer or one that is coarser, and
+ * what flowed through its faces in the sweep under way, if its strip was swept. */
+struct gas_seam_end {
+    int32_t block, beside[4];
+    int side, besides;
+    bool swept;
+    double flux[STRIP_ROWS][GAS_NUMBERS];
+};
+
+/* Of an axis. */
+struct gas_seams {
+    int32_t count;
+    int64_t capacity;
+    struct gas_seam_end *end;
+    int32_t (*of)[2]; /* of each block: the numbers of its low and high end, -1 where there is none;
+                       * NULL: there is one level */
+};
+
 /* What is known of a block, so that gas at rest costs nothing. */
 struct gas_block {
     struct gas_fastest fastest;
@@ -68,6 +86,7 @@ struct gas {
     struct ledger kept_ledger; /* what a sweep has changed that is repeated */
     double *kept_passed;
     struct gas_strips strips[3];
+    struct gas_seams seams[3];
     double *u[GAS_FIELDS];     /* conserved numbers, as the store has them */
     double *other[GAS_FIELDS]; /* where sweeps write */
     double *open;              /* NULL: all cells are */
@@ -100,6 +119,9 @@ void gas_refuse(const struct simulation *simulation, const struct gas_parameters
 /* The domain of a case in CELLS of an edge: as it says, else where its walls are, else the bounds
  * of its bodies. ERROR_INPUT: a face does not lie on a plane of the grid. */
 struct error *gas_find_domain(const struct simulation *simulation, struct cell_blocks *cells);
+
+/* The levels of a case and the regions of the finest, into CELLS. */
+struct error *gas_take_levels(const struct simulation *simulation, struct cell_blocks *cells);
 
 /* Obstacles that leave no cell of the domain of CELLS open, and boundaries whose part holds no
  * place of their face. */
@@ -159,6 +181,18 @@ void gas_free_strips(struct gas *gas);
 
 /* Collective: a sweep along AXIS over DT. */
 struct error *gas_sweep(struct gas *gas, struct simulation *simulation, int axis, double dt);
+
+/* Where levels meet (seams.c): ends of blocks are found; planes of AXIS there are filled; fluxes
+ * are forgotten before a sweep, kept of each strip that is swept, and then coarse cells take those
+ * of fine faces, which is true where that leaves one with hardly anything. */
+struct error *gas_plan_seams(struct gas *gas);
+void gas_free_seams(struct gas *gas);
+struct gas_seam_end *gas_seam_end(const struct gas *gas, int axis, int32_t block, int side);
+void gas_fill_seams(const struct gas *gas, int axis, int threads);
+void gas_forget_fluxes(const struct gas *gas, int axis);
+void gas_keep_fluxes(const struct gas *gas, int axis, const struct gas_strip *strip,
+                     const struct gas_through *through);
+bool gas_match_seams(const struct gas *gas, int axis, double dt, int threads);
 
 /* Books what left STRIP of a sweep along AXIS in DT. */
 void gas_book(const struct gas *gas, const struct simulation *simulation,

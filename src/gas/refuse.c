@@ -197,6 +197,40 @@ static void refuse_materials(const struct simulation *simulation,
                         "materials out, or let gas flow in from a body");
 }
 
+/* What there is not yet for cells of several levels. */
+static void refuse_levels(const struct simulation *simulation,
+                          const struct gas_parameters *parameters, struct findings *findings)
+{
+    const struct simulation_case *input = simulation->problem->input;
+    const struct material *of = simulation->problem->material;
+    int material[2];
+    gas_find_materials(simulation, material);
+    const char *text = NULL;
+    if (parameters->method.index == GAS_LAX_WENDROFF)
+        text = "several levels of cells need the method muscl-hancock";
+    else if (simulation->ranks->size > 1)
+        text = "several levels of cells run on one rank";
+    else if (material[0] != material[1])
+        text = "with several levels of cells there is one material";
+    else if (!eos_traits(&of[material[0]].eos).gas || material_is_lit(&of[material[0]]))
+        text = "with several levels of cells the material is a gas that does not burn";
+    else if (geometry_power(input->geometry) > 0)
+        text = "with several levels of cells x is no radius";
+    else if (problem_has_gravity(simulation->problem))
+        text = "with several levels of cells there is no gravity";
+    else if (input->start.input)
+        text = "with several levels of cells a run begins with bodies: leave `start` out";
+    if (text)
+        finding_add(findings, FINDING_WRONG, "levels", NULL, "%s", text);
+    for (int b = 0; b < input->boundaries.count; b++) {
+        const int kind = case_boundary(input, b)->kind;
+        if (kind == BOUNDARY_RIGID_BODY || kind == BOUNDARY_PERIODIC || kind == BOUNDARY_INFLOW)
+            finding_add(findings, FINDING_WRONG, "boundaries", input->boundaries.names[b],
+                        "with several levels of cells no boundary is of kind %s",
+                        boundary_kind_name(kind));
+    }
+}
+
 void gas_refuse(const struct simulation *simulation, const struct gas_parameters *parameters,
                 struct findings *findings)
 {
@@ -217,6 +251,8 @@ void gas_refuse(const struct simulation *simulation, const struct gas_parameters
     for (int b = 0; b < input->bodies.count; b++)
         refuse_body(place, b, findings);
     refuse_materials(simulation, parameters, findings);
+    if (input->levels > 1 && !place->is_part)
+        refuse_levels(simulation, parameters, findings);
 }
 
 /* The centre of cell K of the COUNT of a box that begins at LOW; along an axis across which the box

@@ -30,9 +30,9 @@ static int32_t next_block(const struct cell_blocks *cells, const struct cell_blo
 {
     int64_t at[3] = {b->corner[0], b->corner[1], b->corner[2]};
     at[axis] += b->count[axis];
-    const bool ends = at[axis] >= cells->high[axis] || at[axis] % ROW_CELLS == 0;
-    const struct cell_block *next =
-        ends ? NULL : cell_block_find(cells, cell_block_key(cells->dimension, at));
+    const bool ends =
+        at[axis] >= cell_domain_end(cells, b->level, axis, 1) || at[axis] % ROW_CELLS == 0;
+    const struct cell_block *next = ends ? NULL : cell_block_at(cells, b->level, at);
     return next ? (int32_t)(next - cells->block) : -1;
 }
 
@@ -40,17 +40,19 @@ static int32_t next_block(const struct cell_blocks *cells, const struct cell_blo
 static bool is_continued(const struct cell_blocks *cells, const struct cell_block *b, int axis)
 {
     int64_t at[3] = {b->corner[0], b->corner[1], b->corner[2]};
-    if (at[axis] == cells->low[axis] || at[axis] % ROW_CELLS == 0)
+    if (at[axis] == cell_domain_end(cells, b->level, axis, 0) || at[axis] % ROW_CELLS == 0)
         return false;
     at[axis]--;
-    return cell_block_find(cells, cell_block_key(cells->dimension, at)) != NULL;
+    return cell_block_at(cells, b->level, at) != NULL;
 }
 
 /* Strips begin at multiples of the longest row, where the domain does, and after blocks of
  * others. */
-static void make_strips(const struct cell_blocks *cells, const struct cell_halo_axis *halo,
-                        int axis, bool round, struct gas_strips *strips)
+static void make_strips(const struct gas *gas, int axis, struct gas_strips *strips)
 {
+    const struct cell_blocks *cells = gas->cells;
+    const struct cell_halo_axis *halo = &gas->halo.axis[axis];
+    const bool round = gas->round && axis == 0;
     int32_t blocks = 0;
     for (int32_t b = 0; b < cells->blocks; b++) {
         if (is_continued(cells, &cells->block[b], axis))
@@ -64,9 +66,13 @@ static void make_strips(const struct cell_blocks *cells, const struct cell_halo_
             last = at;
         }
         strip->waits = halo->waits[b][0] || halo->waits[last][1];
+        strip->open = (halo->waits[b][0] && !gas_seam_end(gas, axis, b, 0)) ||
+                      (halo->waits[last][1] && !gas_seam_end(gas, axis, last, 1));
         const struct cell_block *low = &cells->block[b], *high = &cells->block[last];
-        strip->bounds = round || low->corner[axis] == cells->low[axis] ||
-                        high->corner[axis] + high->count[axis] == cells->high[axis];
+        strip->bounds =
+            round || low->corner[axis] == cell_domain_end(cells, low->level, axis, 0) ||
+            high->corner[axis] + high->count[axis] == cell_domain_end(cells, low->level, axis, 1);
+        strip->part = 1.0 / (double)(1 << low->level);
     }
     assert(blocks == cells->blocks);
     struct gas_strip *sorted = strips->strip + strips->count; /* the room is double */
@@ -121,6 +127,7 @@ static struct error *plan_strips(struct gas *gas, const struct cell_blocks *cell
     if (gas->order == cells->order)
         return NULL;
     gas->order = cells->order;
+    TRY(gas_plan_seams(gas));
     for (int axis = 0; axis < cells->dimension; axis++) {
         struct gas_strips *strips = &gas->strips[axis];
         free_strips(strips);
@@ -129,7 +136,7 @@ static struct error *plan_strips(struct gas *gas, const struct cell_blocks *cell
         strips->strip = memory_allocate(2 * room * sizeof *strips->strip);
         if (!strips->block || !strips->strip)
             return out_of_memory_for("strips of cells");
-        make_strips(cells, &gas->halo.axis[axis], axis, gas->round && axis == 0, strips);
+        make_strips(gas, axis, strips);
     }
     return NULL;
 }
@@ -157,22 +164,31 @@ static bool is_cut(const struct gas *gas, const struct gas_strip *strip, int axi
     return inside && (cut->open[axis][0] || cut->open[axis][1]);
 }
 
+/* Whether block A and what is beyond an end of block B along AXIS hold the same gas at rest. */
+static bool is_alike_beyond(const struct gas *gas, int32_t a, int axis, int32_t b, int side)
+{
+    const struct gas_seam_end *seam = gas_seam_end(gas, axis, b, side);
+    const struct cell_halo_axis *halo = &gas->halo.axis[axis];
+    bool alike = true;
+    for (int k = 0; seam && k < seam->besides && alike; k++)
+        alike = is_alike(gas, a, seam->beside[k]);
+    for (int depth = 0; !seam && depth < gas->halo.depth && alike; depth++)
+        alike = is_alike(gas, a, halo->beyond[b][side][depth].block);
+    return alike;
+}
+
 /* A sweep leaves one gas at rest as it is, to the bit, whatever the step is: fluxes are its
  * pressure everywhere. What it knows of the blocks is as they are before the sweep. */
 static bool may_sleep(const struct gas *gas, const struct gas_strip *strip, int axis)
 {
-    const struct cell_halo_axis *halo = &gas->halo.axis[axis];
     const int32_t first = strip->block[0], last = strip->block[strip->count - 1];
-    if (strip->waits || gas->block[first].awake || is_cut(gas, strip, axis))
+    if (strip->open || gas->block[first].awake || is_cut(gas, strip, axis))
         return false;
     for (int k = 1; k < strip->count; k++)
         if (!is_alike(gas, first, strip->block[k]))
             return false;
-    for (int depth = 0; depth < gas->halo.depth; depth++)
-        if (!is_alike(gas, first, halo->beyond[first][0][depth].block) ||
-            !is_alike(gas, first, halo->beyond[last][1][depth].block))
-            return false;
-    return true;
+    return is_alike_beyond(gas, first, axis, first, 0) &&
+           is_alike_beyond(gas, first, axis, last, 1);
 }
 
 static void copy_block(struct gas *gas, int32_t b)
@@ -184,19 +200,28 @@ static void copy_block(struct gas *gas, int32_t b)
     gas->block[b].same = true;
 }
 
+/* Whether no shock is beyond an end of block B along AXIS. */
+static bool is_calm_beyond(const struct gas *gas, int axis, int32_t b, int side)
+{
+    const struct gas_seam_end *seam = gas_seam_end(gas, axis, b, side);
+    const struct cell_halo_axis *halo = &gas->halo.axis[axis];
+    bool calm = true;
+    for (int k = 0; seam && k < seam->besides; k++)
+        calm &= !gas->block[seam->beside[k]].shocked;
+    for (int depth = 0; !seam && depth < gas->halo.depth && calm; depth++)
+        calm = !gas->block[halo->beyond[b][side][depth].block].shocked;
+    return calm;
+}
+
 /* Whether no shock is in a strip, in the cells beyond its ends, and in what was written there
  * last. */
 static bool is_calm(const struct gas *gas, const struct gas_strip *strip, int axis)
 {
-    const struct cell_halo_axis *halo = &gas->halo.axis[axis];
     const int32_t first = strip->block[0], last = strip->block[strip->count - 1];
-    bool calm = !strip->waits;
+    bool calm = !strip->open;
     for (int k = 0; k < strip->count; k++)
         calm &= !gas->block[strip->block[k]].shocked && !gas->block[strip->block[k]].stale;
-    for (int depth = 0; calm && depth < gas->halo.depth; depth++)
-        calm = !gas->block[halo->beyond[first][0][depth].block].shocked &&
-               !gas->block[halo->beyond[last][1][depth].block].shocked;
-    return calm;
+    return calm && is_calm_beyond(gas, axis, first, 0) && is_calm_beyond(gas, axis, last, 1);
 }
 
 /* Which strips of a sweep along AXIS sleep; blocks of the others are awake for the rest of the
@@ -238,6 +263,7 @@ static bool sweep_strips(const struct gas *gas, struct simulation *simulation,
                 continue;
             gas_sweep_strip(sweep, &strips->strip[s], of);
             spent = spent || of->spent;
+            gas_keep_fluxes(gas, sweep->axis, &strips->strip[s], of);
             gas_book(gas, simulation, &strips->strip[s], of, sweep->axis, sweep->dt, &own);
         }
 #pragma omp critical(bolide_gas_sweep)
@@ -309,14 +335,17 @@ static struct error *sweep_once(struct gas *gas, struct simulation *simulation, 
     memcpy(sweep.to, gas->other, sizeof sweep.to);
     const struct gas_strips *strips = &gas->strips[axis];
     choose_strips(gas, simulation, axis);
+    gas_forget_fluxes(gas, axis);
     cell_halo_start(&gas->halo, cells, axis, sweep.from);
     bool own = sweep_strips(gas, simulation, &sweep, 0, strips->early);
     simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
     cell_halo_finish(&gas->halo, axis);
+    gas_fill_seams(gas, axis, simulation->threads);
     struct error *error = gas_fill_planes(gas, simulation, axis, begin + 0.5 * dt);
     TRY(ranks_agree(simulation->ranks, error));
     simulation_end_waiting(simulation);
     own |= sweep_strips(gas, simulation, &sweep, strips->early, strips->count);
+    own |= gas_match_seams(gas, axis, dt, simulation->threads);
     *spent = ranks_maximum(simulation->ranks, own) > 0.0;
     return NULL;
 }

@@ -68,7 +68,7 @@ struct gas_sweep {
     const struct gas_layout *layout;
     bool thaws; /* the second material is never colder than 0 K */
     int axis;
-    double r;          /* dt/h */
+    double r;          /* dt/h of cells of level 0 */
     int round;         /* the power of the radius in a volume: 0 unless the axis is one */
     bool *shocked;     /* of each block, found: it has strong shocks */
     bool second_order; /* MUSCL-Hancock, else Lax-Wendroff */
@@ -82,7 +82,9 @@ struct gas_sweep {
 struct gas_strip {
     const int32_t *block;
     int count;
+    double part; /* the edge of a cell of level 0 over that of its cells */
     bool waits;  /* it needs planes */
+    bool open;   /* of other ranks or faces, about which nothing is known before */
     bool bounds; /* what leaves it is booked: an end is a face of the domain, or it is a radius */
     bool calm;   /* no strong shocks are in it and beyond its ends, and none where it is written */
     bool sleeps; /* all of it and what is beyond its ends is one gas at rest: it stays as it is */
@@ -120,7 +122,8 @@ struct gas_look {
     int round;     /* the power of x in a volume */
 };
 
-/* The fastest |u_i| + c of a block, and the cell with it; a cell whose state is impossible comes
+/* The fastest |u_i| + c of a block, over the edge of its cells in those of level 0, and the cell
+ * with it; a cell whose state is impossible comes
  * before all others, with a speed that is not a number. */
 struct gas_fastest {
     double speed;

@@ -95,12 +95,13 @@ static void store_row(const struct gather *g, const struct gas_row *row, int fir
     }
 }
 
-static void sweep_row(const struct gas_sweep *sweep, struct gas_row *row, struct gas_numbers *flux)
+static void sweep_row(const struct gather *g, struct gas_row *row, struct gas_numbers *flux)
 {
-    if (sweep->second_order)
-        row_muscl_hancock(row, sweep->r, flux);
+    const double r = g->sweep->r * g->strip->part;
+    if (g->sweep->second_order)
+        row_muscl_hancock(row, r, flux);
     else
-        row_lax_wendroff(row, &sweep->scheme, sweep->r, flux);
+        row_lax_wendroff(row, &g->sweep->scheme, r, flux);
 }
 
 /* Copies cell FROM of ALL, in LAYOUT, to place K of a row, turned where it is an image. */
@@ -170,7 +171,7 @@ static void sweep_runs(const struct gather *g, double (*all)[ROW_ROOM], int cell
                         reflected(at, closed_low ? k : -1000, closed_high ? last : 1000, &turned);
                 copy_cell(all, layout, source, turned, row, at - from + ROW_GHOSTS);
             }
-            sweep_row(g->sweep, row, &flux);
+            sweep_row(g, row, &flux);
             if (g->sweep->cut)
                 note_cut(g, row, &flux, from - begin);
             store_row(g, row, from - begin);
@@ -259,7 +260,7 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
                 FOR_ROW (k, -sweep->halo->depth, cells - 1 + sweep->halo->depth)
                     copy_cell(all, layout, k, false, &row, k);
             }
-            sweep_row(sweep, &row, &flux);
+            sweep_row(&g, &row, &flux);
             if (sweep->cut)
                 note_cut(&g, &row, &flux, 0);
             store_row(&g, &row, 0);
@@ -349,9 +350,10 @@ static void take_run(const struct gas_look *look, struct run *run)
         }
 }
 
-/* What the store shows of the cells, whose volume is VOLUME, per radian that of the plane. */
+/* What the store shows of the cells, whose edge is EDGE and whose volume is VOLUME, per radian that
+ * of the plane. */
 static void put_run(const struct gas_look *look, const struct run *run,
-                    const struct row_values *values, double volume)
+                    const struct row_values *values, double volume, double edge)
 {
     const struct cell_blocks *cells = look->cells;
     for (int k = 0; k < run->count; k++) {
@@ -364,9 +366,9 @@ static void put_run(const struct gas_look *look, const struct run *run,
         for (int axis = 0; axis < 3; axis++)
             cells->velocity[i][axis] = run->velocity[axis][at];
         cells->energy[i] = run->energy[at];
-        cells->mass[i] = open ? density * gas_cell_volume(volume, cells->edge,
-                                                          cells->position[i][0], look->round)
-                              : 0.0;
+        cells->mass[i] =
+            open ? density * gas_cell_volume(volume, edge, cells->position[i][0], look->round)
+                 : 0.0;
         cells->pressure[i] = open ? values->pressure[at] : 0.0;
         look->sound[i] = open ? sqrt(sound) : 0.0;
         if (look->closure.other)
@@ -414,7 +416,7 @@ static bool is_still(const struct gas_look *look, int32_t first, int32_t end)
 ISA_KERNEL(struct gas_fastest, gas_look_at_block, const struct gas_look *look, int32_t b)
 {
     const struct cell_block *block = &look->cells->block[b];
-    const double h = look->cells->edge;
+    const double h = cell_block_edge(look->cells, block);
     const double volume = look->cells->dimension == 1   ? h
                           : look->cells->dimension == 2 ? h * h
                                                         : h * h * h;
@@ -426,8 +428,9 @@ ISA_KERNEL(struct gas_fastest, gas_look_at_block, const struct gas_look *look, i
         run.count = end - run.first < ROW_CELLS ? end - run.first : ROW_CELLS;
         take_run(look, &run);
         evaluate_run(look, &run, &values);
-        put_run(look, &run, &values, volume);
+        put_run(look, &run, &values, volume, h);
         find_fastest(look, &run, &fastest);
     }
+    fastest.speed /= (double)(1 << block->level);
     return fastest;
 }

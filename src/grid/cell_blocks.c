@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "grid/levels.h"
 #include "parallel/block.h"
 #include "parallel/exchange.h"
 
@@ -31,6 +32,7 @@ static void bind_core(struct cell_blocks *cells)
     cells->pressure = cell_blocks_field(cells, "pressure");
     cells->position = cell_blocks_field(cells, "position");
     cells->velocity = cell_blocks_field(cells, "velocity");
+    cells->size = cell_blocks_field(cells, "size");
 }
 
 void *cell_blocks_field(const struct cell_blocks *cells, const char *name)
@@ -74,6 +76,7 @@ void cell_blocks_destroy(struct cell_blocks *cells)
     for (int k = 0; k < cells->fields; k++)
         free(cells->field[k].data);
     free(cells->block);
+    free(cells->region);
     block_table_free(&cells->table);
     memset(cells, 0, sizeof *cells);
 }
@@ -83,9 +86,9 @@ static int64_t block_index(const struct cell_blocks *cells, int axis, int64_t ce
     return axis < cells->dimension ? block_of_cell(cell, cell_block_side(cells->dimension)) : 0;
 }
 
-uint64_t cell_block_key(int dimension, const int64_t at[3])
+uint64_t cell_block_key(int dimension, int level, const int64_t at[3])
 {
-    const int side = cell_block_side(dimension), blocks = side / block_cells(dimension);
+    const int side = cell_block_side(dimension), blocks = (side / block_cells(dimension)) << level;
     int64_t block[3] = {0, 0, 0};
     for (int axis = 0; axis < dimension; axis++)
         block[axis] = block_of_cell(at[axis], side) * blocks;
@@ -96,6 +99,14 @@ const struct cell_block *cell_block_find(const struct cell_blocks *cells, uint64
 {
     const int32_t number = cells->table.slots ? block_table_find(&cells->table, key) : -1;
     return number < 0 ? NULL : &cells->block[number];
+}
+
+const struct cell_block *cell_block_at(const struct cell_blocks *cells, int level,
+                                       const int64_t at[3])
+{
+    const struct cell_block *block =
+        cell_block_find(cells, cell_block_key(cells->dimension, level, at));
+    return block && block->level == level ? block : NULL;
 }
 
 static int by_key(const void *a, const void *b)
@@ -116,11 +127,11 @@ static struct cell_block block_at(const struct cell_blocks *cells, const int64_t
         block.count[axis] =
             (int)((end < cells->high[axis] ? end : cells->high[axis]) - block.corner[axis]);
     }
-    block.key = cell_block_key(cells->dimension, block.corner);
+    block.key = cell_block_key(cells->dimension, 0, block.corner);
     return block;
 }
 
-/* All blocks of the domain by their keys. Free *list. */
+/* All blocks of a domain of one level. Free *list. */
 static struct error *list_blocks(const struct cell_blocks *cells, struct cell_block **list,
                                  int64_t *count)
 {
@@ -140,7 +151,6 @@ static struct error *list_blocks(const struct cell_blocks *cells, struct cell_bl
         for (at[1] = low[1]; at[1] <= high[1]; at[1]++)
             for (at[0] = low[0]; at[0] <= high[0]; at[0]++)
                 (*list)[(*count)++] = block_at(cells, at);
-    qsort(*list, (size_t)*count, sizeof **list, by_key);
     return NULL;
 }
 
@@ -168,6 +178,7 @@ static void place_cells(struct cell_blocks *cells)
 {
     for (int32_t b = 0; b < cells->blocks; b++) {
         const struct cell_block *block = &cells->block[b];
+        const double edge = cell_block_edge(cells, block);
         int32_t i = block->first;
         int64_t at[3];
         for (at[2] = 0; at[2] < block->count[2]; at[2]++)
@@ -177,11 +188,13 @@ static void place_cells(struct cell_blocks *cells)
                     for (int axis = 2; axis >= 0; axis--) {
                         const int64_t cell = block->corner[axis] + at[axis];
                         id = id * (uint64_t)(cells->high[axis] - cells->low[axis]) +
-                             (uint64_t)(cell - cells->low[axis]);
+                             (uint64_t)(cell * (1 << block->level) - cells->low[axis]);
                         cells->position[i][axis] =
-                            axis < cells->dimension ? ((double)cell + 0.5) * cells->edge : 0.0;
+                            axis < cells->dimension ? ((double)cell + 0.5) * edge : 0.0;
                     }
                     cells->id[i] = id;
+                    if (cells->size)
+                        cells->size[i] = edge;
                 }
     }
 }
@@ -190,7 +203,8 @@ struct error *cell_blocks_fill(struct cell_blocks *cells)
 {
     struct cell_block *list;
     int64_t count = 0;
-    TRY(list_blocks(cells, &list, &count));
+    TRY(cells->levels > 1 ? levels_list(cells, &list, &count) : list_blocks(cells, &list, &count));
+    qsort(list, (size_t)count, sizeof *list, by_key);
     const struct slice slice = ranks_slice(cells->ranks, count);
     cells->blocks = (int32_t)(slice.end - slice.begin);
     free(cells->block);

@@ -4,7 +4,12 @@
  * the domain. A block holds 64, 16 x 16 or 8 x 8 x 8 of them, fewer where the domain ends; in a
  * block x runs fastest. Blocks lie in the order of their keys. A block of cells is made of whole
  * blocks of particles, whose first gives it its key, so that one partition serves both. Vectors
- * have three components in every dimension. */
+ * have three components in every dimension.
+ *
+ * Cells may be of several levels: those of level k are 2^k times as wide as the finest, of level 0.
+ * A block has as many cells on all levels, and of a coarse one the key is that of the first of the
+ * finest blocks that it covers, so that the keys of blocks in its place are all its own. Blocks
+ * that touch differ by one level at most (levels.h). */
 #ifndef BOLIDE_CELL_BLOCKS_H
 #define BOLIDE_CELL_BLOCKS_H
 
@@ -14,19 +19,29 @@
 
 enum { CELL_BLOCK_FIELDS = 40 };
 
-/* The cells corner .. corner + count - 1 of the global grid, whose first has index `first`. */
+/* The cells corner .. corner + count - 1 of the global grid of its level, whose first has index
+ * `first`. */
 struct cell_block {
     uint64_t key;
     int64_t corner[3];
     int count[3];
     int32_t first;
+    int level;
+};
+
+/* Cells low .. high - 1 of level 0 along each axis. */
+struct cell_region {
+    int64_t low[3], high[3];
 };
 
 struct cell_blocks {
     int dimension;
-    double edge; /* m */
+    double edge; /* of a cell of level 0, m */
     int64_t low[3],
         high[3]; /* of the domain along each axis: its first cell, the one after its last */
+    int levels;  /* of cells; 0, 1: there is one */
+    int regions; /* where cells are of level 0; elsewhere they are as coarse as can be */
+    struct cell_region *region; /* owned */
     const struct ranks *ranks;
     struct partition *partition;
     int threads;
@@ -42,6 +57,7 @@ struct cell_blocks {
     uint16_t *material, *body;
     double *mass, *density, *energy, *pressure;
     double (*position)[3], (*velocity)[3];
+    double *size; /* the edge of a cell, m; NULL: there is one level */
 };
 
 /* Cells of a block along each axis. */
@@ -66,6 +82,21 @@ BOLIDE_INLINE int32_t cell_stride(const struct cell_block *block, int axis)
     return axis == 0 ? 1 : axis == 1 ? block->count[0] : block->count[0] * block->count[1];
 }
 
+/* The edge of its cells, m. */
+BOLIDE_INLINE double cell_block_edge(const struct cell_blocks *cells,
+                                     const struct cell_block *block)
+{
+    return cells->edge * (double)(1 << block->level);
+}
+
+/* The first cell of the domain along AXIS, or the one after its last, in cells of LEVEL. */
+BOLIDE_INLINE int64_t cell_domain_end(const struct cell_blocks *cells, int level, int axis,
+                                      int side)
+{
+    return (side ? cells->high : cells->low)[axis] /
+           ((int64_t)1 << (axis < cells->dimension ? level : 0));
+}
+
 /* A store without blocks, with the core's fields and COUNT more. The caller has set dimension,
  * edge, domain, ranks, partition and threads. */
 struct error *cell_blocks_create(struct cell_blocks *cells, const struct field_declaration *more,
@@ -82,11 +113,15 @@ struct error *cell_blocks_fill(struct cell_blocks *cells);
 /* The data of field NAME, which must exist; it holds until blocks come or go. */
 void *cell_blocks_field(const struct cell_blocks *cells, const char *name);
 
-/* The key of the block that holds the cell AT of the global grid. */
-uint64_t cell_block_key(int dimension, const int64_t at[3]);
+/* The key of the block that holds the cell AT of the global grid of LEVEL. */
+uint64_t cell_block_key(int dimension, int level, const int64_t at[3]);
 
 /* The block with KEY, NULL where this rank does not own it. */
 const struct cell_block *cell_block_find(const struct cell_blocks *cells, uint64_t key);
+
+/* The block of LEVEL that holds its cell AT, NULL where this rank owns none. */
+const struct cell_block *cell_block_at(const struct cell_blocks *cells, int level,
+                                       const int64_t at[3]);
 
 /* Collective: every block goes to the rank that owns it. With RECUT, or where the ranks' work since
  * the cut differs by too much, blocks are divided anew. */

@@ -26,17 +26,18 @@ struct planning {
     bool failed;
 };
 
-/* A place along the axis outside the domain, taken into it; FILLED where a face does not say how,
- * and INSTEAD is not to be used for it. */
+/* A place along the axis outside the domain, in cells of a level, taken into it; FILLED where a
+ * face does not say how, and INSTEAD is not to be used for it. */
 struct axis_place {
     int64_t at;
     bool turned, filled;
 };
 
-static struct axis_place place_inside(const struct planning *p, int64_t at,
+static struct axis_place place_inside(const struct planning *p, int level, int64_t at,
                                       const enum cell_face *instead)
 {
-    const int64_t low = p->cells->low[p->axis], high = p->cells->high[p->axis];
+    const int64_t low = cell_domain_end(p->cells, level, p->axis, 0),
+                  high = cell_domain_end(p->cells, level, p->axis, 1);
     struct axis_place place = {at, false, false};
     while (place.at < low || place.at >= high) {
         const int side = place.at >= high;
@@ -57,20 +58,37 @@ static struct axis_place place_inside(const struct planning *p, int64_t at,
     return place;
 }
 
+/* The cells at PLACE beside block B are of another level. */
+static struct cell_source join(struct planning *p, const struct cell_block *b,
+                               struct axis_place place)
+{
+    struct cell_halo_axis *axis = &p->halo->axis[p->axis];
+    if (!memory_reserve((void **)&axis->seam, &axis->seam_capacity, axis->seams + 1, axis->seams,
+                        sizeof *axis->seam)) {
+        p->failed = true;
+        return (struct cell_source){0};
+    }
+    axis->seam[axis->seams] =
+        (struct cell_seam){.block = (int32_t)(b - p->cells->block), .at = place.at};
+    return (struct cell_source){-3, axis->seams++, place.turned};
+}
+
 /* The cell of the domain at PLACE along the axis, beside block B. */
 static struct cell_source source_of(struct planning *p, const struct cell_block *b,
                                     struct axis_place place)
 {
     int64_t at[3] = {b->corner[0], b->corner[1], b->corner[2]};
     at[p->axis] = place.at;
-    const uint64_t key = cell_block_key(p->cells->dimension, at);
-    const struct cell_block *own = cell_block_find(p->cells, key);
+    const uint64_t key = cell_block_key(p->cells->dimension, b->level, at);
+    const struct cell_block *own = cell_block_at(p->cells, b->level, at);
     struct cell_source source = {-1, p->count, place.turned};
     if (own) {
         source.block = (int32_t)(own - p->cells->block);
         source.at = (int32_t)(place.at - own->corner[p->axis]);
         return source;
     }
+    if (p->cells->levels > 1) /* on one rank */
+        return join(p, b, place);
     if (!memory_reserve((void **)&p->wanted, &p->wanted_capacity, p->count + 1, p->count,
                         sizeof *p->wanted) ||
         !memory_reserve((void **)&p->owner, &p->owner_capacity, p->count + 1, p->count,
@@ -99,13 +117,13 @@ static struct cell_source fill(struct planning *p, int32_t b, int side, int dept
         p->failed = true;
         return (struct cell_source){0};
     }
-    axis->filled[axis->fills] =
-        (struct cell_filled){.block = b,
-                             .side = side,
-                             .depth = depth,
-                             .at = at,
-                             .mirror = source_of(p, block, place_inside(p, at, &mirror)),
-                             .copy = source_of(p, block, place_inside(p, at, &copies))};
+    axis->filled[axis->fills] = (struct cell_filled){
+        .block = b,
+        .side = side,
+        .depth = depth,
+        .at = at,
+        .mirror = source_of(p, block, place_inside(p, block->level, at, &mirror)),
+        .copy = source_of(p, block, place_inside(p, block->level, at, &copies))};
     return (struct cell_source){-2, axis->fills++, false};
 }
 
@@ -119,7 +137,7 @@ static void find_sources(struct planning *p)
                 const struct cell_block *block = &cells->block[b];
                 const int64_t corner = block->corner[p->axis],
                               at = side ? corner + block->count[p->axis] + k : corner - 1 - k;
-                const struct axis_place place = place_inside(p, at, NULL);
+                const struct axis_place place = place_inside(p, block->level, at, NULL);
                 axis->beyond[b][side][k] =
                     place.filled ? fill(p, b, side, k, at) : source_of(p, block, place);
             }
@@ -133,12 +151,15 @@ static int by_owner(const void *a, const void *b)
 }
 
 /* Planes come in the order of their ranks, of one rank as they were asked for. */
-static void number_source(struct cell_source *source, const int32_t *plane, int32_t remote)
+static void number_source(struct cell_source *source, const int32_t *plane, int32_t remote,
+                          int32_t filled)
 {
     if (source->block == -1)
         source->at = plane[source->at];
     else if (source->block == -2)
         *source = (struct cell_source){-1, remote + source->at, source->turned};
+    else if (source->block == -3)
+        *source = (struct cell_source){-1, remote + filled + source->at, source->turned};
 }
 
 static void number_planes(struct planning *p, const int32_t *plane)
@@ -148,16 +169,18 @@ static void number_planes(struct planning *p, const int32_t *plane)
         for (int side = 0; side < 2; side++) {
             axis->waits[b][side] = false;
             for (int k = 0; k < p->halo->depth; k++) {
-                number_source(&axis->beyond[b][side][k], plane, p->count);
+                number_source(&axis->beyond[b][side][k], plane, p->count, axis->fills);
                 axis->waits[b][side] |= axis->beyond[b][side][k].block < 0;
             }
         }
     for (int32_t f = 0; f < axis->fills; f++) {
-        number_source(&axis->filled[f].mirror, plane, p->count);
-        number_source(&axis->filled[f].copy, plane, p->count);
+        number_source(&axis->filled[f].mirror, plane, p->count, axis->fills);
+        number_source(&axis->filled[f].copy, plane, p->count, axis->fills);
         axis->filled[f].plane = p->count + f;
     }
-    axis->planes = p->count + axis->fills;
+    for (int32_t s = 0; s < axis->seams; s++)
+        axis->seam[s].plane = p->count + axis->fills + s;
+    axis->planes = p->count + axis->fills + axis->seams;
 }
 
 /* Tells the owners what is wanted of them. */
@@ -199,6 +222,7 @@ static void free_axis(struct cell_halo_axis *axis)
     free(axis->waits);
     free(axis->plane);
     free(axis->filled);
+    free(axis->seam);
     free(axis->sent);
     exchange_free(&axis->exchange);
     memset(axis, 0, sizeof *axis);

@@ -1,7 +1,7 @@
 /* The cells beyond the ends of blocks: where a sweep along an axis finds the neighbours of the
  * cells that a rank owns. They are cells of its other blocks, reached across faces of the domain by
  * what lies outside them, or planes of cells: copies of those of other ranks, and what the caller
- * puts outside a face. */
+ * puts outside a face and where levels meet. */
 #ifndef BOLIDE_CELL_HALO_H
 #define BOLIDE_CELL_HALO_H
 
@@ -29,17 +29,26 @@ struct cell_filled {
     struct cell_source mirror, copy;
 };
 
+/* A plane that the caller fills with cells of another level: beyond block `block`, in cells of its
+ * level at place `at` along the axis. */
+struct cell_seam {
+    int32_t block, plane;
+    int64_t at;
+};
+
 /* Of one axis. */
 struct cell_halo_axis {
     struct cell_source (*beyond)[2][CELL_GHOSTS]; /* of each block: low and high, next first */
     bool (*waits)[2];                             /* of each block: its end needs a plane */
-    int32_t planes;                               /* of other ranks, then filled ones */
+    int32_t planes;                               /* of other ranks, filled ones, seams */
     double *plane;                                /* numbers of all planes */
     int32_t fills;
     struct cell_filled *filled;
+    int32_t seams;
+    struct cell_seam *seam;
     struct cell_source *sent; /* planes that other ranks want, in the order of their items */
     struct exchange exchange;
-    int64_t plane_capacity, filled_capacity;
+    int64_t plane_capacity, filled_capacity, seam_capacity;
 };
 
 struct cell_halo {

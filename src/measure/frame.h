@@ -17,7 +17,6 @@ enum { FRAME_FIELDS = 24, FRAME_GROUPS = 4 };
 struct frame_group {
     int64_t count;
     int cell_dimension; /* of cells; 0: particles */
-    double edge;        /* of cells, m */
     uint64_t *id;
     uint16_t *body, *material;
     float (*position)[3];

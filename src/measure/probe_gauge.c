@@ -83,7 +83,7 @@ static struct error *check_cells(const struct probe *probe, const struct simulat
     const struct simulation_case *input = simulation->problem->input;
     const struct probe_gauge *gauge = probe->input->probe.value;
     const double radius = radius_of(probe, simulation);
-    if (reaches_cell(input, &gauge->at, radius, edge))
+    if (reaches_cell(input, &gauge->at, input->levels > 1 ? maximum(radius, edge) : radius, edge))
         return NULL;
     for (int axis = 0; axis < gauge->at.count; axis++) {
         const double at = gauge->at.at[axis], low = domain_face(input, axis, 0).at,
@@ -161,7 +161,8 @@ static struct error *sample(struct probe *probe, const struct simulation *simula
     TRY(ranks_agree(simulation->ranks, sums ? NULL : out_of_memory_for("a gauge")));
     for (int32_t i = 0; i < population->count; i++)
         if (population_has(population, i) &&
-            distance_square(&gauge->at, population->position[i]) <= square(radius) &&
+            distance_square(&gauge->at, population->position[i]) <=
+                square(probe_reach(population, i, radius)) &&
             (probe->selection.body < 0 || population->body[i] == probe->selection.body))
             add_particle(probe, population, i, sums);
     ranks_sum_exact(simulation->ranks, sums, count + 2);

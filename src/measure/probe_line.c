@@ -80,7 +80,8 @@ static void add_member(const struct sampling *s, int32_t index)
     for (int axis = 0; axis < s->dimension; axis++)
         along += (at[axis] - line->from.at[axis]) * s->along[axis];
     square_of_distance = distance_square(&line->from, at) - square(along);
-    const double reach = square(s->radius) - maximum(square_of_distance, 0.0);
+    const double reach =
+        square(probe_reach(s->population, index, s->radius)) - maximum(square_of_distance, 0.0);
     if (!(reach >= 0.0))
         return;
     const double half = sqrt(reach) * (1.0 + 1e-9);

@@ -156,6 +156,16 @@ static inline double distance_square(const struct vector_value *place, const dou
     return sum;
 }
 
+/* The distance from a point within which member INDEX counts where RADIUS is asked for. A cell that
+ * is not of the finest level counts wherever the point may lie in it. */
+static inline double probe_reach(const struct population *population, int32_t index, double radius)
+{
+    const double size = population->size ? population->size[index] : 0.0;
+    return size > 1.5 * population->edge
+               ? maximum(radius, 0.501 * sqrt((double)population->dimension) * size)
+               : radius;
+}
+
 /* For the kinds: whether PLACE, which KEY gives, has a number a dimension; columns for the fields
  * that the case names, which are chosen here, behind those that are chosen already. */
 struct error *probe_check_place(const struct probe *probe, const struct simulation *simulation,

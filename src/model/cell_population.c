@@ -20,6 +20,7 @@ static struct population members(const void *store)
                                .velocity = (const double(*)[3])cells->velocity,
                                .fraction = fields_find(cells->field, cells->fields, "fraction"),
                                .edge = cells->edge,
+                               .size = cells->size,
                                .blocks = cells->blocks,
                                .block = cells->block,
                                .fields = cells->fields,

@@ -42,7 +42,8 @@ struct population {
     const double (*position)[3], (*velocity)[3];
     const double (*deviator)[6]; /* of stress; NULL: no member bears shear */
     const double *fraction; /* of a second material in cells; NULL: members are of one material */
-    double edge;            /* of a cell, m */
+    double edge;            /* of a cell, m; of several levels, of the finest */
+    const double *size;     /* the edge of each cell, m; NULL: there is one level */
     int32_t blocks;         /* of cells; a block has the same cells on any number of ranks */
     const struct cell_block *block;
     int fields; /* that a store keeps by name, the above among them */

@@ -65,11 +65,12 @@ void mesh_fill_points(const void *of, int64_t begin, int64_t end, void *out)
     for (int64_t i = begin; i < end; i++, point++) {
         while (b + 1 < p->blocks && mesh->first[b + 1] <= i)
             b++;
+        const double edge = p->edge * (double)(1 << p->block[b].level);
         int64_t rest = i - mesh->first[b];
         for (int axis = 0; axis < 3; axis++) {
             const int64_t along = points_along(mesh, &p->block[b], axis),
                           plane = p->block[b].corner[axis] + rest % along;
-            (*point)[axis] = axis < p->dimension ? (double)plane * p->edge : 0.0;
+            (*point)[axis] = axis < p->dimension ? (double)plane * edge : 0.0;
             rest /= along;
         }
     }

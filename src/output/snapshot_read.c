@@ -171,7 +171,7 @@ static void read_field(struct reading *r, const char *name, struct frame_group *
     group->fields += field->value != NULL;
 }
 
-/* The centres of the cells of GROUP between POINTS. */
+/* The centres and the edges of the cells of GROUP between POINTS. */
 static void find_centres(struct reading *r, struct frame_group *group, double (*point)[3],
                          int64_t points)
 {
@@ -188,8 +188,7 @@ static void find_centres(struct reading *r, struct frame_group *group, double (*
                      *high = point[corner[(i + 1) * corners - 1]];
         for (int axis = 0; axis < 3; axis++)
             group->position[i][axis] = (float)(0.5 * (low[axis] + high[axis]));
-        if (i == 0)
-            group->edge = high[0] - low[0];
+        group->diameter[i] = (float)(high[0] - low[0]);
     }
     free(corner);
 }
@@ -211,7 +210,9 @@ static void read_places(struct reading *r, struct frame_group *group)
     if (!r->error && (numbers % 3 || (!group->cell_dimension && points != types)))
         r->error = error_new(ERROR_SYSTEM, "VTKHDF/Points has another number of points");
     group->position = memory_allocate((size_t)types * sizeof *group->position + 1);
-    if (!group->position && !r->error)
+    if (group->cell_dimension)
+        group->diameter = memory_allocate((size_t)types * sizeof *group->diameter + 1);
+    if ((!group->position || (group->cell_dimension && !group->diameter)) && !r->error)
         r->error = out_of_memory_for("a picture");
     if (group->cell_dimension && !r->error)
         find_centres(r, group, point, points);
@@ -244,17 +245,10 @@ static void read_sizes(struct reading *r, struct frame_group *group)
     group->material = read_column(r, "material", H5T_NATIVE_UINT16, -1);
     group->mass = components_of(r, "mass") ? read_column(r, "mass", H5T_NATIVE_FLOAT, -1)
                                            : read_column(r, "density", H5T_NATIVE_FLOAT, -1);
-    if (!group->cell_dimension) {
+    if (!group->cell_dimension)
         group->diameter = components_of(r, "diameter")
                               ? read_column(r, "diameter", H5T_NATIVE_FLOAT, -1)
                               : find_diameters(r, group);
-        return;
-    }
-    group->diameter = memory_allocate((size_t)group->count * sizeof(float) + 1);
-    if (!group->diameter && !r->error)
-        r->error = out_of_memory_for("a picture");
-    for (int64_t i = 0; i < group->count && group->diameter; i++)
-        group->diameter[i] = (float)group->edge;
 }
 
 /* Cells that an obstacle blocks are hidden; they have no mass here. */

@@ -586,7 +586,6 @@ static void cells_fill_flat_faces(void **state)
     uint32_t colour[256] = {0};
     int times[256] = {0}, colours = 0, all = 0, most[3] = {0};
     frame.group[0].cell_dimension = 3;
-    frame.group[0].edge = 1e-3;
     for (int64_t i = 0; i < frame.group[0].count; i++)
         frame.group[0].field[0].value[i] = 1e9f;
     struct album *album = album_of(&input, 2, &frame, &frame);

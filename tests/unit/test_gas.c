@@ -107,6 +107,34 @@ static const char cylinder[] =
     "  hot: {material: air, box: {from: [0.1 m], to: [0.2 m]}, pressure: 5 MPa, "
     "replaces: air}\n" END;
 
+/* Cells of several levels: domains that cut blocks, negative places, waves across faces. */
+static const char line_of_levels[] =
+    "format: 1\ndimension: 1\nresolution: 1 mm\nlevels: 3\nsolver: gas\n"
+    "fine: {hot: {box: {from: [90 mm], to: [140 mm]}}}\n" AIR "bodies:\n"
+    "  air: {material: air, box: {from: [0 m], to: [1.904 m]}, pressure: 0.1 MPa}\n"
+    "  hot: {material: air, box: {from: [0.1 m], to: [0.13 m]}, pressure: 5 MPa, replaces: air}\n"
+    "walls: {end: {mirror: x, at: 0 m, side: low}}\n" END;
+static const char plane_of_levels[] =
+    "format: 1\ndimension: 2\nresolution: 4 mm\nlevels: 3\nsolver: gas\n"
+    "fine: {hot: {ball: {center: [0.3 m, 0.2 m], radius: 0.05 m}}, end: {box: {from: [0.2 m, 0.4 "
+    "m], "
+    "to: [0.3 m, 0.42 m]}}}\n" AIR "bodies:\n"
+    "  air: {material: air, box: {from: [-0.16 m, -0.032 m], to: [1.28 m, 1.056 m]}, "
+    "pressure: 0.1 MPa}\n"
+    "  hot: {material: air, ball: {center: [0.3 m, 0.2 m], radius: 0.05 m}, pressure: 5 MPa, "
+    "replaces: air}\n"
+    "walls: {end: {mirror: x, at: -0.16 m, side: low}, floor: {mirror: y, at: -32 mm, side: low}}"
+    "\n" END;
+static const char space_of_levels[] =
+    "format: 1\ndimension: 3\nresolution: 20 mm\nlevels: 3\nsolver: gas\n"
+    "fine: {hot: {box: {from: [0.3 m, 0.2 m, 0.2 m], to: [0.31 m, 0.21 m, 0.21 m]}}}\n" AIR
+    "bodies:\n"
+    "  air: {material: air, box: {from: [0 m, 0 m, 0 m], to: [1.6 m, 1.12 m, 1.28 m]}, "
+    "pressure: 0.1 MPa}\n"
+    "  hot: {material: air, ball: {center: [0.3 m, 0.2 m, 0.2 m], radius: 0.07 m}, "
+    "pressure: 5 MPa, replaces: air}\n"
+    "walls: {floor: {mirror: z, at: 0 m, side: low}}\n" END;
+
 static const struct {
     const char *name, *text;
     int steps; /* fewer than the walls of the domain are away */
@@ -120,6 +148,9 @@ static const struct {
              {"sphere", sphere, STEPS},
              {"cylinder", cylinder, STEPS},
              {"charge", charge, STEPS},
+             {"line of levels", line_of_levels, 2 * STEPS},
+             {"plane of levels", plane_of_levels, STEPS},
+             {"space of levels", space_of_levels, STEPS / 4},
              {"heavy", heavy, STEPS}};
 
 static const struct variant plain = {"plain", 1, 1.0, NULL, false};

@@ -1,0 +1,385 @@
+/* Where levels of cells meet: what cells of one level see of the other, and fluxes that both have.
+ *
+ * A coarse cell beyond an end is the mean of the fine ones in its place. Fine cells beyond an end
+ * are parts of a coarse one, which changes inside it by limited slopes of density, velocity and
+ * energy of heat per volume. A contact at one pressure of an ideal gas changes only the first of
+ * these, and none of the parts has less than a quarter of the least of its neighbours. Once all
+ * strips are swept, coarse cells take the mean of the fluxes through the fine faces in place of
+ * their own. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "gas/gas_internal.h"
+#include "gas/states.h"
+#include "grid/levels.h"
+#include "parallel/block.h"
+
+/* Density, velocity, and energy of heat per volume. */
+struct inner {
+    double of[GAS_NUMBERS], shock;
+};
+
+/* The axes across a sweep, the lower first, and how many cells of the next finer level there are
+ * beside one along them. */
+struct crosswise {
+    int first, second, firsts, seconds;
+};
+
+static struct crosswise crosswise_of(int dimension, int axis)
+{
+    const int first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2;
+    return (struct crosswise){first, second, first < dimension ? 2 : 1, second < dimension ? 2 : 1};
+}
+
+/* Cell AT in cells twice as wide or, with UP -1, half as wide: then the first of them. */
+static void change_level(int dimension, const int64_t at[3], int up, int64_t to[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        to[axis] = axis >= dimension ? 0 : up > 0 ? block_of_cell(at[axis], 2) : 2 * at[axis];
+}
+
+static bool holds(const struct cell_block *block, const int64_t at[3])
+{
+    bool holds = true;
+    for (int axis = 0; axis < 3; axis++)
+        holds &=
+            at[axis] >= block->corner[axis] && at[axis] < block->corner[axis] + block->count[axis];
+    return holds;
+}
+
+/* The block that covers cell AT of LEVEL; LIKELY are tried first. NULL outside the domain. */
+static const struct cell_block *find(const struct cell_blocks *cells, int level,
+                                     const int64_t at[3], const struct cell_block *const likely[2])
+{
+    int64_t part[3];
+    change_level(cells->dimension, at, -1, part);
+    for (int k = 0; k < 2; k++)
+        if ((likely[k]->level == level && holds(likely[k], at)) ||
+            (likely[k]->level == level - 1 && holds(likely[k], part)))
+            return likely[k];
+    return cell_block_cover(cells, level, at);
+}
+
+/* The conserved numbers and the shocks of cell AT of LEVEL: its own, or the means of its parts.
+ * False where it is outside the domain or a part of a wider cell. */
+static bool take(const struct gas *gas, int level, const int64_t at[3],
+                 const struct cell_block *const likely[2], struct inner *to)
+{
+    const struct cell_blocks *cells = gas->cells;
+    const struct cell_block *block = find(cells, level, at, likely);
+    if (!block || block->level > level)
+        return false;
+    memset(to, 0, sizeof *to);
+    if (block->level == level) {
+        const int32_t i = cell_index_in(block, at);
+        for (int n = 0; n < GAS_NUMBERS; n++)
+            to->of[n] = gas->u[n][i];
+        to->shock = gas->u[GAS_SHOCK][i];
+        return true;
+    }
+    assert(block->level == level - 1);
+    const int parts = 1 << cells->dimension;
+    int64_t first[3];
+    int shock = 0;
+    change_level(cells->dimension, at, -1, first);
+    for (int k = 0; k < parts; k++) {
+        const int64_t part[3] = {first[0] + (k & 1), first[1] + (k >> 1 & 1),
+                                 first[2] + (k >> 2 & 1)};
+        const int32_t i = cell_index_in(block, part);
+        for (int n = 0; n < GAS_NUMBERS; n++)
+            to->of[n] += gas->u[n][i];
+        shock |= (int)gas->u[GAS_SHOCK][i];
+    }
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        to->of[n] /= parts;
+    to->shock = shock;
+    return true;
+}
+
+static double kinetic_of(const double momentum[3], double density)
+{
+    return 0.5 * (square(momentum[0]) + square(momentum[1]) + square(momentum[2])) / density;
+}
+
+static void make_inner(struct inner *of)
+{
+    const double density = of->of[GAS_DENSITY];
+    of->of[GAS_ENERGY] -= kinetic_of(of->of + GAS_MOMENTUM, density);
+    for (int n = GAS_MOMENTUM; n < GAS_ENERGY; n++)
+        of->of[n] /= density;
+}
+
+static void make_conserved(double of[GAS_NUMBERS])
+{
+    for (int n = GAS_MOMENTUM; n < GAS_ENERGY; n++)
+        of[n] *= of[GAS_DENSITY];
+    of[GAS_ENERGY] += kinetic_of(of + GAS_MOMENTUM, of[GAS_DENSITY]);
+}
+
+static double lesser(double a, double b) { return a * b <= 0.0 ? 0.0 : fabs(a) < fabs(b) ? a : b; }
+
+/* How much the numbers of cell AT of LEVEL, which are MIDDLE, change within it along an axis. */
+static void find_slope(const struct gas *gas, int level, const int64_t at[3], int axis,
+                       const struct cell_block *const likely[2], const struct inner *middle,
+                       double slope[GAS_NUMBERS])
+{
+    struct inner beside[2];
+    bool known = true;
+    for (int side = 0; side < 2 && known; side++) {
+        int64_t to[3] = {at[0], at[1], at[2]};
+        to[axis] += side ? 1 : -1;
+        known = take(gas, level, to, likely, &beside[side]);
+        if (known)
+            make_inner(&beside[side]);
+    }
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        slope[n] =
+            known ? lesser(middle->of[n] - beside[0].of[n], beside[1].of[n] - middle->of[n]) : 0.0;
+}
+
+static void put(const struct gas *gas, int axis, const struct cell_seam *seam, int row,
+                const double of[GAS_NUMBERS], double shock)
+{
+    const int dimension = gas->cells->dimension;
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        cell_plane(&gas->halo, dimension, axis, seam->plane, n)[row] = of[n];
+    cell_plane(&gas->halo, dimension, axis, seam->plane, GAS_SHOCK)[row] = shock;
+}
+
+/* Puts the parts, beyond a fine block, of the coarse cell one of which is AT, in row I, J. */
+static void put_parts(const struct gas *gas, int axis, const struct cell_seam *seam,
+                      const struct cell_block *const likely[2], const int64_t at[3], int i, int j)
+{
+    const int dimension = gas->cells->dimension, level = likely[0]->level + 1;
+    const struct crosswise across = crosswise_of(dimension, axis);
+    struct inner middle;
+    double slope[3][GAS_NUMBERS];
+    int64_t whole[3];
+    change_level(dimension, at, 1, whole);
+    take(gas, level, whole, likely, &middle);
+    make_inner(&middle);
+    for (int k = 0; k < dimension; k++)
+        find_slope(gas, level, whole, k, likely, &middle, slope[k]);
+    for (int second = 0; second < across.seconds; second++)
+        for (int first = 0; first < across.firsts; first++) {
+            int64_t part[3] = {at[0], at[1], at[2]};
+            double of[GAS_NUMBERS];
+            part[across.first] += first;
+            part[across.second] += second;
+            memcpy(of, middle.of, sizeof of);
+            for (int k = 0; k < dimension; k++)
+                for (int n = 0; n < GAS_NUMBERS; n++)
+                    of[n] += (part[k] & 1 ? 0.25 : -0.25) * slope[k][n];
+            make_conserved(of);
+            put(gas, axis, seam, i + first + (j + second) * likely[0]->count[across.first], of,
+                middle.shock);
+        }
+}
+
+static void fill_seam(const struct gas *gas, int axis, const struct cell_seam *seam)
+{
+    const struct cell_blocks *cells = gas->cells;
+    const struct cell_block *own = &cells->block[seam->block];
+    const struct crosswise across = crosswise_of(cells->dimension, axis);
+    int64_t at[3] = {own->corner[0], own->corner[1], own->corner[2]};
+    at[axis] = seam->at;
+    const struct cell_block *source = cell_block_cover(cells, own->level, at);
+    const bool coarse = source->level > own->level;
+    for (int j = 0; j < own->count[across.second]; j += coarse ? across.seconds : 1)
+        for (int i = 0; i < own->count[across.first]; i += coarse ? across.firsts : 1) {
+            const struct cell_block *const likely[2] = {own, source};
+            struct inner mean;
+            at[across.first] = own->corner[across.first] + i;
+            at[across.second] = own->corner[across.second] + j;
+            if (coarse)
+                put_parts(gas, axis, seam, likely, at, i, j);
+            else if (take(gas, own->level, at, likely, &mean))
+                put(gas, axis, seam, i + j * own->count[across.first], mean.of, mean.shock);
+        }
+}
+
+void gas_fill_seams(const struct gas *gas, int axis, int threads)
+{
+    const struct cell_halo_axis *halo = &gas->halo.axis[axis];
+    if (halo->seams == 0)
+        return;
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int32_t s = 0; s < halo->seams; s++)
+        fill_seam(gas, axis, &halo->seam[s]);
+}
+
+/* The blocks beside an end of BLOCK along AXIS, where they are of another level. */
+static void find_beside(const struct cell_blocks *cells, const struct cell_block *block, int axis,
+                        int side, struct gas_seam_end *end)
+{
+    const struct crosswise across = crosswise_of(cells->dimension, axis);
+    end->besides = 0;
+    for (int k = 0; k < across.firsts * across.seconds; k++) {
+        int64_t at[3] = {block->corner[0], block->corner[1], block->corner[2]};
+        at[axis] += side ? block->count[axis] : -1;
+        at[across.first] += k % across.firsts ? block->count[across.first] - 1 : 0;
+        at[across.second] += k / across.firsts ? block->count[across.second] - 1 : 0;
+        const struct cell_block *beside = cell_block_cover(cells, block->level, at);
+        if (!beside || beside->level == block->level)
+            return;
+        if (beside->level < block->level) { /* the part of the cell that is at the corner */
+            change_level(cells->dimension, at, -1, at);
+            at[axis] += side ? 0 : 1;
+            at[across.first] += k % across.firsts;
+            at[across.second] += k / across.firsts;
+            beside = cell_block_cover(cells, block->level - 1, at);
+        }
+        end->beside[end->besides++] = (int32_t)(beside - cells->block);
+    }
+}
+
+void gas_free_seams(struct gas *gas)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        free(gas->seams[axis].end);
+        free(gas->seams[axis].of);
+        memset(&gas->seams[axis], 0, sizeof gas->seams[axis]);
+    }
+}
+
+struct error *gas_plan_seams(struct gas *gas)
+{
+    const struct cell_blocks *cells = gas->cells;
+    gas_free_seams(gas);
+    for (int axis = 0; axis < cells->dimension && cells->levels > 1; axis++) {
+        struct gas_seams *seams = &gas->seams[axis];
+        seams->of = memory_allocate(((size_t)cells->blocks + 1) * sizeof *seams->of);
+        if (!seams->of)
+            return out_of_memory_for("strips of cells");
+        for (int32_t b = 0; b < cells->blocks; b++)
+            for (int side = 0; side < 2; side++) {
+                struct gas_seam_end end = {.block = b, .side = side};
+                seams->of[b][side] = -1;
+                find_beside(cells, &cells->block[b], axis, side, &end);
+                if (end.besides == 0)
+                    continue;
+                if (!memory_reserve((void **)&seams->end, &seams->capacity, seams->count + 1,
+                                    seams->count, sizeof *seams->end))
+                    return out_of_memory_for("strips of cells");
+                seams->of[b][side] = seams->count;
+                seams->end[seams->count++] = end;
+            }
+    }
+    return NULL;
+}
+
+struct gas_seam_end *gas_seam_end(const struct gas *gas, int axis, int32_t block, int side)
+{
+    const struct gas_seams *seams = &gas->seams[axis];
+    return seams->of && seams->of[block][side] >= 0 ? &seams->end[seams->of[block][side]] : NULL;
+}
+
+void gas_forget_fluxes(const struct gas *gas, int axis)
+{
+    for (int32_t k = 0; k < gas->seams[axis].count; k++)
+        gas->seams[axis].end[k].swept = false;
+}
+
+void gas_keep_fluxes(const struct gas *gas, int axis, const struct gas_strip *strip,
+                     const struct gas_through *through)
+{
+    for (int side = 0; side < 2; side++) {
+        struct gas_seam_end *end =
+            gas_seam_end(gas, axis, strip->block[side ? strip->count - 1 : 0], side);
+        if (!end)
+            continue;
+        memcpy(end->flux, through->end[side], sizeof end->flux);
+        end->swept = true;
+    }
+}
+
+/* The mean of what flows through the fine faces beside row I, J of END; false where none of it
+ * differs from what flows through END. */
+static bool mean_flux(const struct gas *gas, int axis, const struct gas_seam_end *end, int i, int j,
+                      double mean[GAS_NUMBERS])
+{
+    const struct cell_blocks *cells = gas->cells;
+    const struct cell_block *own = &cells->block[end->block];
+    const struct crosswise across = crosswise_of(cells->dimension, axis);
+    const int faces = across.firsts * across.seconds;
+    int64_t at[3] = {own->corner[0], own->corner[1], own->corner[2]}, part[3];
+    at[axis] += end->side ? own->count[axis] : -1;
+    at[across.first] += i;
+    at[across.second] += j;
+    change_level(cells->dimension, at, -1, part);
+    part[axis] += end->side ? 0 : 1;
+    const struct cell_block *beside = NULL;
+    for (int k = 0; k < end->besides && !beside; k++)
+        if (holds(&cells->block[end->beside[k]], part))
+            beside = &cells->block[end->beside[k]];
+    const struct gas_seam_end *other =
+        gas_seam_end(gas, axis, (int32_t)(beside - cells->block), 1 - end->side);
+    memset(mean, 0, GAS_NUMBERS * sizeof *mean);
+    for (int k = 0; k < faces && other->swept; k++) {
+        const int row =
+            (int)(part[across.first] - beside->corner[across.first]) + k % across.firsts +
+            ((int)(part[across.second] - beside->corner[across.second]) + k / across.firsts) *
+                beside->count[across.first];
+        for (int n = 0; n < GAS_NUMBERS; n++)
+            mean[n] += other->flux[row][n];
+    }
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        mean[n] /= faces;
+    return other->swept;
+}
+
+/* Whether what a sweep has left of cell I is hardly anything. */
+static bool is_spent(const struct gas *gas, int32_t i)
+{
+    struct inner before, after;
+    for (int n = 0; n < GAS_NUMBERS; n++) {
+        before.of[n] = gas->u[n][i];
+        after.of[n] = gas->other[n][i];
+    }
+    make_inner(&before);
+    make_inner(&after);
+    return !(after.of[GAS_DENSITY] > 0.5 * GAS_LEAST * before.of[GAS_DENSITY] &&
+             after.of[GAS_ENERGY] > 0.5 * GAS_LEAST * before.of[GAS_ENERGY]);
+}
+
+static bool match_end(const struct gas *gas, int axis, const struct gas_seam_end *end, double dt)
+{
+    const struct cell_block *own = &gas->cells->block[end->block];
+    const struct crosswise across = crosswise_of(gas->cells->dimension, axis);
+    const double r = (end->side ? -dt : dt) / cell_block_edge(gas->cells, own);
+    bool spent = false;
+    for (int j = 0; j < own->count[across.second]; j++)
+        for (int i = 0; i < own->count[across.first]; i++) {
+            const double *flux = end->flux[i + j * own->count[across.first]];
+            double mean[GAS_NUMBERS];
+            int64_t at[3] = {own->corner[0], own->corner[1], own->corner[2]};
+            at[axis] += end->side ? own->count[axis] - 1 : 0;
+            at[across.first] += i;
+            at[across.second] += j;
+            if (!mean_flux(gas, axis, end, i, j, mean))
+                continue;
+            const int32_t cell = cell_index_in(own, at);
+            for (int n = 0; n < GAS_NUMBERS; n++)
+                gas->other[n][cell] += r * (mean[n] - flux[n]);
+            spent |= is_spent(gas, cell);
+        }
+    return spent;
+}
+
+bool gas_match_seams(const struct gas *gas, int axis, double dt, int threads)
+{
+    const struct gas_seams *seams = &gas->seams[axis];
+    bool spent = false;
+    if (seams->count == 0)
+        return false;
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : spent)
+    for (int32_t k = 0; k < seams->count; k++) {
+        const struct gas_seam_end *end = &seams->end[k];
+        const bool coarse =
+            gas->cells->block[end->beside[0]].level < gas->cells->block[end->block].level;
+        if (coarse && end->swept)
+            spent = match_end(gas, axis, end, dt) || spent;
+    }
+    return spent;
+}

@@ -1,0 +1,217 @@
+/* Levels of cells: see levels.h. */
+#include "grid/levels.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "parallel/block.h"
+
+/* A list of blocks that cover the domain, and how to find them. */
+struct cover {
+    const struct cell_blocks *cells;
+    const struct cell_block *block;
+    const struct block_table *table;
+};
+
+static bool is_inside(const struct cell_blocks *cells, int level, const int64_t at[3])
+{
+    bool inside = true;
+    for (int axis = 0; axis < cells->dimension; axis++)
+        inside &= at[axis] * (1 << level) >= cells->low[axis] &&
+                  at[axis] * (1 << level) < cells->high[axis];
+    return inside;
+}
+
+/* The number of the block whose key is that of the block of LEVEL that would hold cell AT, where it
+ * covers that; else -1. */
+static int32_t block_of(const struct cover *cover, int level, const int64_t at[3])
+{
+    const int32_t number =
+        block_table_find(cover->table, cell_block_key(cover->cells->dimension, level, at));
+    return number >= 0 && cover->block[number].level >= level ? number : -1;
+}
+
+static int32_t find(const struct cover *cover, int level, const int64_t at[3])
+{
+    int32_t found = is_inside(cover->cells, level, at) ? block_of(cover, level, at) : -2;
+    for (int l = level + 1; l < cover->cells->levels && found == -1; l++) {
+        int64_t cell[3] = {0, 0, 0};
+        for (int axis = 0; axis < cover->cells->dimension; axis++)
+            cell[axis] = block_of_cell(at[axis], (int64_t)1 << (l - level));
+        found = block_of(cover, l, cell);
+    }
+    for (int l = level - 1; l >= 0 && found == -1; l--) {
+        int64_t cell[3] = {0, 0, 0};
+        for (int axis = 0; axis < cover->cells->dimension; axis++)
+            cell[axis] = at[axis] * (1 << (level - l));
+        found = block_of(cover, l, cell);
+    }
+    return found;
+}
+
+const struct cell_block *cell_block_cover(const struct cell_blocks *cells, int level,
+                                          const int64_t at[3])
+{
+    const struct cover cover = {cells, cells->block, &cells->table};
+    const int32_t found = find(&cover, level, at);
+    return found < 0 ? NULL : &cells->block[found];
+}
+
+/* The block of LEVEL with index AT along each axis; false where it is outside the domain. */
+static bool block_at(const struct cell_blocks *cells, int level, const int64_t at[3],
+                     struct cell_block *block)
+{
+    const int side = cell_block_side(cells->dimension);
+    bool inside = true;
+    *block = (struct cell_block){.count = {1, 1, 1}, .level = level};
+    for (int axis = 0; axis < cells->dimension; axis++) {
+        const int64_t begin = at[axis] * side, low = cell_domain_end(cells, level, axis, 0),
+                      high = cell_domain_end(cells, level, axis, 1);
+        block->corner[axis] = begin > low ? begin : low;
+        block->count[axis] =
+            (int)((begin + side < high ? begin + side : high) - block->corner[axis]);
+        inside &= block->count[axis] > 0;
+    }
+    block->key = cell_block_key(cells->dimension, level, block->corner);
+    return inside;
+}
+
+/* Whether BLOCK meets a region of level 0. */
+static bool is_pinned(const struct cell_blocks *cells, const struct cell_block *block)
+{
+    for (int r = 0; r < cells->regions; r++) {
+        const struct cell_region *region = &cells->region[r];
+        bool meets = true;
+        for (int axis = 0; axis < cells->dimension; axis++) {
+            const int64_t low = block->corner[axis] * (1 << block->level),
+                          high = low + (int64_t)block->count[axis] * (1 << block->level);
+            meets &= low < region->high[axis] && high > region->low[axis];
+        }
+        if (meets)
+            return true;
+    }
+    return false;
+}
+
+/* Marks in SPLIT the blocks beside B that are coarser than it by more than a level. */
+static void mark_coarse(const struct cover *cover, int32_t b, bool *split)
+{
+    const struct cell_block *block = &cover->block[b];
+    const int dimension = cover->cells->dimension, all = dimension == 1   ? 3
+                                                         : dimension == 2 ? 9
+                                                                          : 27;
+    for (int k = 0; k < all; k++) {
+        const int to[3] = {k % 3 - 1, dimension > 1 ? k / 3 % 3 - 1 : 0,
+                           dimension > 2 ? k / 9 - 1 : 0};
+        int64_t at[3];
+        for (int axis = 0; axis < 3; axis++)
+            at[axis] = block->corner[axis] + (to[axis] < 0   ? -1
+                                              : to[axis] > 0 ? block->count[axis]
+                                                             : 0);
+        const int32_t beside = find(cover, block->level, at);
+        if (beside >= 0 && cover->block[beside].level > block->level + 1)
+            split[beside] = true;
+    }
+}
+
+/* A list that grows. */
+struct blocks {
+    struct cell_block *block;
+    int64_t capacity;
+    int32_t count;
+};
+
+static bool add(struct blocks *blocks, const struct cell_block *block)
+{
+    if (!memory_reserve((void **)&blocks->block, &blocks->capacity, blocks->count + 1,
+                        blocks->count, sizeof *blocks->block))
+        return false;
+    blocks->block[blocks->count++] = *block;
+    return true;
+}
+
+/* Adds the blocks of LEVEL with indices LOW .. HIGH along each axis that the domain has. */
+static bool add_box(const struct cell_blocks *cells, int level, const int64_t low[3],
+                    const int64_t high[3], struct blocks *blocks)
+{
+    bool room = true;
+    int64_t at[3];
+    for (at[2] = low[2]; at[2] <= high[2]; at[2]++)
+        for (at[1] = low[1]; at[1] <= high[1]; at[1]++)
+            for (at[0] = low[0]; at[0] <= high[0] && room; at[0]++) {
+                struct cell_block block;
+                if (block_at(cells, level, at, &block))
+                    room = add(blocks, &block);
+            }
+    return room;
+}
+
+/* Puts the parts of each block of OLD that SPLIT marks, and the others, into NEW. */
+static bool divide(const struct cell_blocks *cells, const struct blocks *old, const bool *split,
+                   struct blocks *new)
+{
+    const int side = cell_block_side(cells->dimension);
+    bool room = true;
+    new->count = 0;
+    for (int32_t b = 0; b < old->count && room; b++) {
+        const struct cell_block *block = &old->block[b];
+        int64_t low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+        for (int axis = 0; axis < cells->dimension; axis++) {
+            low[axis] = 2 * block_of_cell(block->corner[axis], side);
+            high[axis] = low[axis] + 1;
+        }
+        room = split[b] ? add_box(cells, block->level - 1, low, high, new) : add(new, block);
+    }
+    return room;
+}
+
+/* Divides blocks of BLOCKS once where they are too coarse; *DONE: none is. */
+static bool refine(const struct cell_blocks *cells, struct blocks *blocks, bool *done)
+{
+    struct block_table table = {0};
+    struct blocks new = {0};
+    bool *split = memory_allocate((size_t)blocks->count + 1);
+    bool room = split && block_table_clear(&table, blocks->count + 1);
+    const struct cover cover = {cells, blocks->block, &table};
+    if (split)
+        memset(split, 0, (size_t)blocks->count + 1);
+    for (int32_t b = 0; b < blocks->count && room; b++)
+        block_table_add(&table, blocks->block[b].key);
+    for (int32_t b = 0; b < blocks->count && room; b++) {
+        split[b] |= blocks->block[b].level > 0 && is_pinned(cells, &blocks->block[b]);
+        mark_coarse(&cover, b, split);
+    }
+    *done = room;
+    for (int32_t b = 0; b < blocks->count && room; b++)
+        *done &= !split[b];
+    if (room && !*done) {
+        room = divide(cells, blocks, split, &new);
+        free(blocks->block);
+        *blocks = new;
+    }
+    free(split);
+    block_table_free(&table);
+    return room;
+}
+
+struct error *levels_list(const struct cell_blocks *cells, struct cell_block **list, int64_t *count)
+{
+    const int level = cells->levels - 1;
+    const int64_t width = (int64_t)cell_block_side(cells->dimension) << level;
+    int64_t low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+    for (int axis = 0; axis < cells->dimension; axis++) {
+        low[axis] = block_of_cell(cells->low[axis], width);
+        high[axis] = block_of_cell(cells->high[axis] - 1, width);
+    }
+    struct blocks blocks = {0};
+    bool done = false, room = add_box(cells, level, low, high, &blocks);
+    while (room && !done)
+        room = refine(cells, &blocks, &done);
+    *list = blocks.block;
+    *count = blocks.count;
+    if (room)
+        return NULL;
+    free(blocks.block);
+    return out_of_memory_for("cells");
+}

@@ -1,0 +1,30 @@
+/* Which blocks a domain of several levels of cells has, and which block covers a place of it. */
+#ifndef BOLIDE_LEVELS_H
+#define BOLIDE_LEVELS_H
+
+#include "grid/cell_blocks.h"
+
+/* Cells 2^LEVELS_MOST times as wide as the finest are the coarsest. */
+enum { LEVELS_MOST = 8 };
+
+/* All blocks of the domain, by no order: those that meet a region are of level 0, the others as
+ * coarse as can be while no two that touch, be it in a corner, differ by more than a level. The
+ * faces of the domain lie on planes of two cells of the coarsest level. Free *list. */
+struct error *levels_list(const struct cell_blocks *cells, struct cell_block **list,
+                          int64_t *count);
+
+/* The block, of any level, that covers cell AT of LEVEL, or the first part of it; NULL outside the
+ * domain. */
+const struct cell_block *cell_block_cover(const struct cell_blocks *cells, int level,
+                                          const int64_t at[3]);
+
+/* The index of cell AT, of the level of BLOCK, which holds it. */
+BOLIDE_INLINE int32_t cell_index_in(const struct cell_block *block, const int64_t at[3])
+{
+    int32_t i = block->first;
+    for (int axis = 0; axis < 3; axis++)
+        i += (int32_t)(at[axis] - block->corner[axis]) * cell_stride(block, axis);
+    return i;
+}
+
+#endif
