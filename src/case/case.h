@@ -77,12 +77,13 @@ struct fine_input {
     struct one_of shape; /* "shape" */
 };
 
-/* start: {from: FILE}: a blast that another case has computed in 1-D takes the place of what the
- * bodies say within its reach. */
+/* start: {from: FILE}: a blast that another case has computed in 1-D or axisymmetry takes the place
+ * of what the bodies say within its reach. */
 struct start_input {
     char *from;                    /* that case, or its folder; NULL: none */
     double at;                     /* s, how far it is computed; NAN: to its end */
     struct vector_value center;    /* of the blast; count 0: the origin */
+    int axis;                      /* that of an axisymmetric case; -1: y */
     bool window;                   /* the domain need not hold all of the blast */
     char *material;                /* that of its denser material, which no body has; may be NULL */
     int material_index;            /* filled by case_read; -1: none */

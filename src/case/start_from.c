@@ -11,15 +11,19 @@
 #include "document/nodes.h"
 
 const struct parameter case_start_table[] = {
-    PARAMETER(TEXT, struct start_input, from, OPTIONAL,
-              "a case of one dimension, spherical or cylindrical, or the folder of one, from this "
-              "file's folder; it is computed before this run begins",
-              .is_path = true),
+    PARAMETER(
+        TEXT, struct start_input, from, OPTIONAL,
+        "a case of one dimension, spherical or cylindrical, or for 3-D an axisymmetric one, or "
+        "the folder of one, from this file's folder; it is computed before this run begins",
+        .is_path = true),
     PARAMETER(NUMBER, struct start_input, at, OPTIONAL,
               "time up to which that case is computed; default: its end", .unit = "s",
               .below = INFINITY),
     PARAMETER(VECTOR, struct start_input, center, OPTIONAL,
               "where its centre lies here; default: the origin", .unit = "m"),
+    PARAMETER(CHOICE, struct start_input, axis, OPTIONAL,
+              "of an axisymmetric case: along which axis of this case its own lies; default: y",
+              .names = parameter_axes),
     PARAMETER(FLAG, struct start_input, window, "no",
               "the domain is a window on the blast: it need not hold all of it, nor its centre; "
               "faces that cut the blast must let waves through, and disturb what comes to them"),
@@ -182,8 +186,8 @@ void case_check_start(struct checking *checking)
     if (start->material && start->from)
         start->material_index =
             case_find_name(checking, &input->materials, "material", start->material, "material");
-    if (!start->from &&
-        (start->material || start->center.count || !isnan(start->at) || start->window))
+    if (!start->from && (start->material || start->center.count || !isnan(start->at) ||
+                         start->window || start->axis >= 0))
         case_wrong(checking, "", "give `from`, the case that is computed first");
     if (start->center.count)
         case_check_components(checking, "center", start->center.count);
