@@ -313,6 +313,39 @@ static double pressure_around(const struct filling *f)
                : 101325.0;
 }
 
+static void fill_blocks(struct filling *f)
+{
+    for (int32_t b = 0; b < f->gas->cells->blocks && !f->error; b++)
+        fill_block(f, &f->gas->cells->block[b]);
+}
+
+/* Fills all cells, and again as long as what is in them asks for finer ones. */
+static struct error *fill_levels(struct filling *f, struct simulation *simulation)
+{
+    struct gas *gas = f->gas;
+    const int times =
+        gas->cells->levels > 1 && gas->parameters.regrid > 0 ? 2 * gas->cells->levels : 0;
+    fill_blocks(f);
+    for (int k = 0; k < times && !f->error; k++) {
+        struct cell_blocks old;
+        struct cell_block *list = NULL;
+        int64_t count = 0;
+        bool changed = false;
+        gas->cells->threads = simulation->threads;
+        TRY(gas_plan(gas, simulation));
+        TRY(gas_derive(gas, simulation, NULL));
+        TRY(gas_ask_levels(gas, simulation->threads, &list, &count, &changed));
+        if (!changed)
+            break;
+        struct error *error = cell_blocks_renew(gas->cells, list, (int32_t)count, &old);
+        cell_blocks_destroy(&old);
+        TRY(error);
+        gas_bind(gas, gas->cells);
+        fill_blocks(f);
+    }
+    return NULL;
+}
+
 struct error *gas_fill(void *solver, struct simulation *simulation)
 {
     const struct simulation_case *input = simulation->problem->input;
@@ -331,8 +364,8 @@ struct error *gas_fill(void *solver, struct simulation *simulation)
         error = out_of_memory();
     for (size_t b = 0; b < bodies && !error; b++)
         f.bounds[b] = shape_bounds(&case_body(input, (int)b)->shape);
-    for (int32_t b = 0; b < cells->blocks && !error && !f.error; b++)
-        fill_block(&f, &cells->block[b]);
+    if (!error)
+        error = fill_levels(&f, simulation);
     free(f.replacements.at);
     free(f.bounds);
     free(f.near);

@@ -315,6 +315,7 @@ static struct error *gas_prepare(void *solver, struct simulation *simulation, st
     static const char *const reasons[] = {"a wave that crosses a cell"};
     struct gas *gas = solver;
     TRY(balance(gas, simulation));
+    TRY(gas_regrid(gas, simulation));
     const double edge = gas->cells->edge;
     if (gas->unburnt)
         gas->fastest = maximum(gas->fastest, gas->detonation);

@@ -10,6 +10,7 @@ struct gas_parameters {
     struct one_of method; /* "gas-method" */
     double courant;       /* NAN: by the method */
     double ambient;       /* Pa, of the air before a blast, for maps; NAN: none */
+    int64_t regrid;       /* steps between changes of levels; 0: they stay */
     bool burnt;           /* by a coupling: explosives that come into cells have burnt */
 };
 

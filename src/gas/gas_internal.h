@@ -194,6 +194,13 @@ void gas_keep_fluxes(const struct gas *gas, int axis, const struct gas_strip *st
                      const struct gas_through *through);
 bool gas_match_seams(const struct gas *gas, int axis, double dt, int threads);
 
+/* Levels follow waves (regrid.c): the blocks that the state asks for, *COUNT of them in *LIST,
+ * which is NULL where they are those that there are; and the state moves into them when it is
+ * time. */
+struct error *gas_ask_levels(struct gas *gas, int threads, struct cell_block **list, int64_t *count,
+                             bool *changed);
+struct error *gas_regrid(struct gas *gas, struct simulation *simulation);
+
 /* Books what left STRIP of a sweep along AXIS in DT. */
 void gas_book(const struct gas *gas, const struct simulation *simulation,
               const struct gas_strip *strip, const struct gas_through *through, int axis, double dt,

@@ -55,5 +55,10 @@ const struct parameter gas_table[] = {
               "pressure of the air before a blast, for the fields `peak_overpressure` and "
               "`peak_impulse`; default: without these fields",
               .unit = "Pa", .below = INFINITY),
+    PARAMETER(
+        INTEGER, struct gas_parameters, regrid, "4",
+        "with several `levels`, the number of steps after which cells become finer or coarser "
+        "to follow pressure waves; 0: they stay as they begin",
+        .below = INFINITY, .closed = true),
     PARAMETER_END,
 };

@@ -218,6 +218,8 @@ static void refuse_levels(const struct simulation *simulation,
         text = "with several levels of cells x is no radius";
     else if (problem_has_gravity(simulation->problem))
         text = "with several levels of cells there is no gravity";
+    else if (input->output.maps.count > 0 || !isnan(parameters->ambient))
+        text = "with several levels of cells there are no `maps`: leave them and `ambient` out";
     else if (input->start.input)
         text = "with several levels of cells a run begins with bodies: leave `start` out";
     if (text)

@@ -203,7 +203,8 @@ struct error *cell_blocks_fill(struct cell_blocks *cells)
 {
     struct cell_block *list;
     int64_t count = 0;
-    TRY(cells->levels > 1 ? levels_list(cells, &list, &count) : list_blocks(cells, &list, &count));
+    TRY(cells->levels > 1 ? levels_list(cells, NULL, 0, &list, &count)
+                          : list_blocks(cells, &list, &count));
     qsort(list, (size_t)count, sizeof *list, by_key);
     const struct slice slice = ranks_slice(cells->ranks, count);
     cells->blocks = (int32_t)(slice.end - slice.begin);
@@ -220,8 +221,34 @@ struct error *cell_blocks_fill(struct cell_blocks *cells)
     return NULL;
 }
 
+struct error *cell_blocks_take(struct cell_blocks *cells, struct cell_block *block, int32_t count)
+{
+    qsort(block, (size_t)count, sizeof *block, by_key);
+    free(cells->block);
+    cells->block = block;
+    cells->blocks = count;
+    TRY(place_blocks(cells));
+    TRY(allocate(cells));
+    place_cells(cells);
+    return NULL;
+}
+
+struct error *cell_blocks_renew(struct cell_blocks *cells, struct cell_block *block, int32_t count,
+                                struct cell_blocks *old)
+{
+    *old = *cells;
+    old->region = NULL;
+    cells->block = NULL;
+    cells->table = (struct block_table){0};
+    for (int k = 0; k < cells->fields; k++)
+        cells->field[k].data = NULL;
+    return cell_blocks_take(cells, block, count);
+}
+
 struct error *cell_blocks_visit(struct cell_blocks *cells, struct visitor *visitor)
 {
+    if (cells->levels > 1)
+        TRY(levels_visit(cells, visitor));
     if (ranks_sum(cells->ranks, cells->blocks) == 0) /* they are to be loaded */
         TRY(ranks_agree(cells->ranks, cell_blocks_fill(cells)));
     visitor->first = ranks_before(cells->ranks, cells->count);
@@ -289,18 +316,12 @@ static struct error *take_in(struct cell_blocks *cells, const char *packed, int3
         return out_of_memory_for("cells");
     for (int32_t b = 0; b < count; b++)
         memcpy(&block[b], packed + (size_t)b * bytes, sizeof *block);
-    qsort(block, (size_t)count, sizeof *block, by_key);
-    free(cells->block);
-    cells->block = block;
-    cells->blocks = count;
-    TRY(place_blocks(cells));
-    TRY(allocate(cells));
+    TRY(cell_blocks_take(cells, block, count));
     for (int32_t b = 0; b < count; b++) {
         struct cell_block came;
         memcpy(&came, packed + (size_t)b * bytes, sizeof came);
         unpack(cells, cell_block_find(cells, came.key), packed + (size_t)b * bytes);
     }
-    place_cells(cells);
     return NULL;
 }
 

@@ -110,6 +110,13 @@ void cell_blocks_destroy(struct cell_blocks *cells);
  * the domain has more cells than can be counted. */
 struct error *cell_blocks_fill(struct cell_blocks *cells);
 
+/* The COUNT blocks of the list BLOCK, which is taken over and sorted, replace those that there are,
+ * with all fields zero but ids and places. */
+struct error *cell_blocks_take(struct cell_blocks *cells, struct cell_block *block, int32_t count);
+/* The same; what there was goes to OLD, to be destroyed. */
+struct error *cell_blocks_renew(struct cell_blocks *cells, struct cell_block *block, int32_t count,
+                                struct cell_blocks *old);
+
 /* The data of field NAME, which must exist; it holds until blocks come or go. */
 void *cell_blocks_field(const struct cell_blocks *cells, const char *name);
 

@@ -77,9 +77,34 @@ static bool block_at(const struct cell_blocks *cells, int level, const int64_t a
     return inside;
 }
 
-/* Whether BLOCK meets a region of level 0. */
-static bool is_pinned(const struct cell_blocks *cells, const struct cell_block *block)
+/* What is to be divided: a key of a coarse block with its level in the bits that are zero. */
+static uint64_t mark_of(const struct cell_blocks *cells, int level, const int64_t at[3])
 {
+    return cell_block_key(cells->dimension, level, at) | (uint64_t)level;
+}
+
+/* Marks all blocks that hold what is wanted finer. */
+static bool mark_wanted(const struct cell_blocks *cells, const struct cell_want *want,
+                        int64_t wants, struct block_table *marks)
+{
+    if (!block_table_clear(marks, wants * (cells->levels - 1) + 1))
+        return false;
+    for (int64_t k = 0; k < wants; k++)
+        for (int level = want[k].level + 1; level < cells->levels; level++) {
+            int64_t at[3] = {0, 0, 0};
+            for (int axis = 0; axis < cells->dimension; axis++)
+                at[axis] = block_of_cell(want[k].at[axis], (int64_t)1 << (level - want[k].level));
+            block_table_add(marks, mark_of(cells, level, at));
+        }
+    return true;
+}
+
+/* Whether BLOCK is to be divided: it is marked or meets a region of level 0. */
+static bool is_pinned(const struct cell_blocks *cells, const struct block_table *marks,
+                      const struct cell_block *block)
+{
+    if (block_table_find(marks, mark_of(cells, block->level, block->corner)) >= 0)
+        return true;
     for (int r = 0; r < cells->regions; r++) {
         const struct cell_region *region = &cells->region[r];
         bool meets = true;
@@ -167,7 +192,8 @@ static bool divide(const struct cell_blocks *cells, const struct blocks *old, co
 }
 
 /* Divides blocks of BLOCKS once where they are too coarse; *DONE: none is. */
-static bool refine(const struct cell_blocks *cells, struct blocks *blocks, bool *done)
+static bool refine(const struct cell_blocks *cells, const struct block_table *marks,
+                   struct blocks *blocks, bool *done)
 {
     struct block_table table = {0};
     struct blocks new = {0};
@@ -179,7 +205,7 @@ static bool refine(const struct cell_blocks *cells, struct blocks *blocks, bool 
     for (int32_t b = 0; b < blocks->count && room; b++)
         block_table_add(&table, blocks->block[b].key);
     for (int32_t b = 0; b < blocks->count && room; b++) {
-        split[b] |= blocks->block[b].level > 0 && is_pinned(cells, &blocks->block[b]);
+        split[b] |= blocks->block[b].level > 0 && is_pinned(cells, marks, &blocks->block[b]);
         mark_coarse(&cover, b, split);
     }
     *done = room;
@@ -195,7 +221,8 @@ static bool refine(const struct cell_blocks *cells, struct blocks *blocks, bool 
     return room;
 }
 
-struct error *levels_list(const struct cell_blocks *cells, struct cell_block **list, int64_t *count)
+struct error *levels_list(const struct cell_blocks *cells, const struct cell_want *want,
+                          int64_t wants, struct cell_block **list, int64_t *count)
 {
     const int level = cells->levels - 1;
     const int64_t width = (int64_t)cell_block_side(cells->dimension) << level;
@@ -205,13 +232,89 @@ struct error *levels_list(const struct cell_blocks *cells, struct cell_block **l
         high[axis] = block_of_cell(cells->high[axis] - 1, width);
     }
     struct blocks blocks = {0};
-    bool done = false, room = add_box(cells, level, low, high, &blocks);
+    struct block_table marks = {0};
+    bool done = false, room = mark_wanted(cells, want, wants, &marks) &&
+                              add_box(cells, level, low, high, &blocks);
     while (room && !done)
-        room = refine(cells, &blocks, &done);
+        room = refine(cells, &marks, &blocks, &done);
+    block_table_free(&marks);
     *list = blocks.block;
     *count = blocks.count;
     if (room)
         return NULL;
     free(blocks.block);
     return out_of_memory_for("cells");
+}
+
+/* Whether BLOCKS cover the domain of CELLS in the order of their keys, and none touches one that is
+ * coarser by more than a level. */
+static bool is_whole(const struct cell_blocks *cells, const struct cell_block *block, int32_t count)
+{
+    struct block_table table = {0};
+    const struct cover cover = {cells, block, &table};
+    bool *split = memory_allocate((size_t)count + 1);
+    bool whole = split && block_table_clear(&table, count + 1);
+    double all = 1.0, covered = 0.0;
+    for (int axis = 0; axis < cells->dimension; axis++)
+        all *= (double)(cells->high[axis] - cells->low[axis]);
+    for (int32_t b = 0; b < count && whole; b++) {
+        double own = 1.0;
+        for (int axis = 0; axis < cells->dimension; axis++)
+            own *= (double)(block[b].count[axis] * (1 << block[b].level));
+        covered += own;
+        whole = b == 0 || block[b - 1].key < block[b].key;
+        block_table_add(&table, block[b].key);
+    }
+    for (int32_t b = 0; b < count && whole; b++) {
+        whole = find(&cover, block[b].level, block[b].corner) == b;
+        mark_coarse(&cover, b, split);
+    }
+    for (int32_t b = 0; b < count && whole; b++)
+        whole = !split[b];
+    free(split);
+    block_table_free(&table);
+    return whole && covered == all;
+}
+
+struct error *levels_visit(struct cell_blocks *cells, struct visitor *visitor)
+{
+    int64_t count = cells->blocks;
+    TRY(visitor->visit(visitor, "levels/count", NUMBER_INT64, &count, 1, 1));
+    if (count < 0 || count > INT32_MAX || (visitor->most && count > visitor->most))
+        return error_new(ERROR_SYSTEM, "levels/count is %lld: a file of this size has 0 to %lld",
+                         (long long)count, (long long)visitor->most);
+    const bool known = cells->blocks > 0;
+    int64_t *number = memory_allocate(((size_t)count + 1) * 2 * sizeof *number);
+    struct cell_block *block = memory_allocate(((size_t)count + 1) * sizeof *block);
+    struct error *error = number && block ? NULL : out_of_memory_for("cells");
+    for (int64_t b = 0; b < count && known && !error; b++) {
+        number[2 * b] = (int64_t)cells->block[b].key;
+        number[2 * b + 1] = cells->block[b].level;
+    }
+    if (!error)
+        error = visitor->visit(visitor, "levels/blocks", NUMBER_INT64, number, count, 2);
+    bool right = true;
+    for (int64_t b = 0; b < count && !known && !error && right; b++) {
+        const int side = cell_block_side(cells->dimension),
+                  blocks = side / block_cells(cells->dimension);
+        int64_t at[3];
+        right = number[2 * b + 1] >= 0 && number[2 * b + 1] < cells->levels;
+        block_coordinates((uint64_t)number[2 * b], at);
+        for (int axis = 0; axis < 3; axis++)
+            at[axis] = axis < cells->dimension && right
+                           ? block_of_cell(at[axis], (int64_t)blocks << number[2 * b + 1])
+                           : 0;
+        right = right && block_at(cells, (int)number[2 * b + 1], at, &block[b]) &&
+                block[b].key == (uint64_t)number[2 * b];
+    }
+    free(number);
+    if (known || error) {
+        free(block);
+        return error;
+    }
+    if (!right || !is_whole(cells, block, (int32_t)count)) {
+        free(block);
+        return error_new(ERROR_SYSTEM, "levels/blocks do not cover the domain");
+    }
+    return cell_blocks_take(cells, block, (int32_t)count);
 }

@@ -7,11 +7,22 @@
 /* Cells 2^LEVELS_MOST times as wide as the finest are the coarsest. */
 enum { LEVELS_MOST = 8 };
 
+/* The block that holds cell AT of LEVEL is to be of that level, or finer. */
+struct cell_want {
+    int64_t at[3];
+    int level;
+};
+
 /* All blocks of the domain, by no order: those that meet a region are of level 0, the others as
- * coarse as can be while no two that touch, be it in a corner, differ by more than a level. The
- * faces of the domain lie on planes of two cells of the coarsest level. Free *list. */
-struct error *levels_list(const struct cell_blocks *cells, struct cell_block **list,
-                          int64_t *count);
+ * coarse as the WANTS, so many, allow while no two that touch, be it in a corner, differ by more
+ * than a level. The faces of the domain lie on planes of two cells of the coarsest level. Free
+ * *list. */
+struct error *levels_list(const struct cell_blocks *cells, const struct cell_want *want,
+                          int64_t wants, struct cell_block **list, int64_t *count);
+
+/* Shows the keys and levels of the blocks to VISITOR, which may load them: then they come without
+ * cells. */
+struct error *levels_visit(struct cell_blocks *cells, struct visitor *visitor);
 
 /* The block, of any level, that covers cell AT of LEVEL, or the first part of it; NULL outside the
  * domain. */

@@ -1,0 +1,306 @@
+/* Cells of several levels follow pressure waves. Every few steps each block asks for the level that
+ * its pressures need, one finer or coarser than its own at most: where the pressure bends, cells
+ * become finer, and around it before the wave arrives; where it does not, coarser.
+ *
+ * The measure is that of R. Löhner, Comput. Methods Appl. Mech. Eng. 61 (1987) 323, a second
+ * difference over first ones. Small waves do not count.
+ *
+ * Parts of a coarse cell get its conserved numbers with limited slopes, a coarse cell the mean of
+ * its parts: mass, momentum and energy stay. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "gas/gas_internal.h"
+#include "gas/states.h"
+#include "grid/levels.h"
+#include "parallel/block.h"
+
+/* Bends from which cells become finer, and below which they become coarser; the change of the
+ * pressure over two cells from which it counts; the part of the pressure that is noise. */
+static const double FINER = 0.25, COARSER = 0.1, LEAST_CHANGE = 0.1, NOISE = 0.02;
+
+/* Cells around a bend that become finer: more than a wave crosses between two changes. */
+enum { AROUND = 4, SIDES = 27 };
+
+/* What a block asks for: its level, and which of the places around it are near a bend of it. */
+struct demand {
+    int level;
+    bool near[SIDES];
+};
+
+static double bend_of(double low, double middle, double high)
+{
+    const double change = fabs(high - low) / minimum(low, high);
+    const double bend =
+        fabs(high - 2.0 * middle + low) /
+        (fabs(high - middle) + fabs(middle - low) + NOISE * (low + 2.0 * middle + high));
+    return change < LEAST_CHANGE ? 0.0 : bend;
+}
+
+/* Marks the places around BLOCK that lie within AROUND cells of its cell at C. */
+static void mark_near(const struct cell_block *block, int dimension, const int c[3],
+                      struct demand *demand)
+{
+    for (int k = 0; k < SIDES; k++) {
+        const int to[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+        bool near = true;
+        for (int axis = 0; axis < 3; axis++)
+            near &= to[axis] == 0 ||
+                    (axis < dimension &&
+                     (to[axis] < 0 ? c[axis] < AROUND : c[axis] >= block->count[axis] - AROUND));
+        demand->near[k] |= near;
+    }
+}
+
+/* What block B asks for by its own pressures. */
+static struct demand demand_of(const struct gas *gas, int32_t b)
+{
+    const struct cell_blocks *cells = gas->cells;
+    const struct cell_block *block = &cells->block[b];
+    struct demand demand = {.level = block->level};
+    double most = 0.0;
+    int c[3];
+    for (c[2] = 0; c[2] < block->count[2]; c[2]++)
+        for (c[1] = 0; c[1] < block->count[1]; c[1]++)
+            for (c[0] = 0; c[0] < block->count[0]; c[0]++) {
+                const int32_t i = block->first + c[0] * cell_stride(block, 0) +
+                                  c[1] * cell_stride(block, 1) + c[2] * cell_stride(block, 2);
+                double bend = 0.0;
+                for (int axis = 0; axis < cells->dimension; axis++)
+                    if (c[axis] > 0 && c[axis] < block->count[axis] - 1)
+                        bend =
+                            maximum(bend, bend_of(cells->pressure[i - cell_stride(block, axis)],
+                                                  cells->pressure[i],
+                                                  cells->pressure[i + cell_stride(block, axis)]));
+                if (bend > FINER)
+                    mark_near(block, cells->dimension, c, &demand);
+                most = maximum(most, bend);
+            }
+    demand.level += most > FINER ? -1 : most > COARSER ? 0 : 1;
+    if (demand.level < 0)
+        demand.level = 0;
+    return demand;
+}
+
+/* Adds to WANT, which has room, what block B asks for, of itself and around it. */
+static int64_t add_wants(const struct gas *gas, int32_t b, const struct demand *demand,
+                         struct cell_want *want)
+{
+    const struct cell_blocks *cells = gas->cells;
+    const struct cell_block *block = &cells->block[b];
+    int64_t wants = 0;
+    for (int k = 0; k < SIDES; k++) {
+        const int to[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+        const bool own = to[0] == 0 && to[1] == 0 && to[2] == 0;
+        int64_t at[3];
+        if (!own && !demand->near[k])
+            continue;
+        for (int axis = 0; axis < 3; axis++)
+            at[axis] = block->corner[axis] + (to[axis] < 0   ? -1
+                                              : to[axis] > 0 ? block->count[axis]
+                                                             : 0);
+        const struct cell_block *there = own ? block : cell_block_cover(cells, block->level, at);
+        if (!there)
+            continue;
+        struct cell_want *of = &want[wants++];
+        of->level = demand->level > there->level - 1 ? demand->level : there->level - 1;
+        for (int axis = 0; axis < 3; axis++)
+            of->at[axis] = axis >= cells->dimension ? 0
+                           : of->level > block->level
+                               ? block_of_cell(at[axis], (int64_t)1 << (of->level - block->level))
+                               : at[axis] * (1 << (block->level - of->level));
+    }
+    return wants;
+}
+
+/* The blocks that the state asks for, *COUNT of them. */
+static struct error *ask(const struct gas *gas, int threads, struct cell_block **list,
+                         int64_t *count)
+{
+    const struct cell_blocks *cells = gas->cells;
+    const size_t blocks = (size_t)cells->blocks;
+    struct demand *demand = memory_allocate((blocks + 1) * sizeof *demand);
+    struct cell_want *want = memory_allocate((blocks * SIDES + 1) * sizeof *want);
+    int64_t wants = 0;
+    struct error *error = demand && want ? NULL : out_of_memory_for("cells");
+    if (!error) {
+#pragma omp parallel for schedule(static) num_threads(threads)
+        for (int32_t b = 0; b < cells->blocks; b++)
+            demand[b] = demand_of(gas, b);
+        for (int32_t b = 0; b < cells->blocks; b++)
+            wants += add_wants(gas, b, &demand[b], want + wants);
+        error = levels_list(cells, want, wants, list, count);
+    }
+    free(demand);
+    free(want);
+    return error;
+}
+
+/* Whether LIST, COUNT blocks, differs from those that CELLS have. */
+static bool differs(const struct cell_blocks *cells, const struct cell_block *list, int64_t count)
+{
+    bool differs = count != cells->blocks;
+    for (int64_t b = 0; b < count && !differs; b++) {
+        const struct cell_block *own = cell_block_find(cells, list[b].key);
+        differs = !own || own->level != list[b].level;
+    }
+    return differs;
+}
+
+struct error *gas_ask_levels(struct gas *gas, int threads, struct cell_block **list, int64_t *count,
+                             bool *changed)
+{
+    TRY(ask(gas, threads, list, count));
+    *changed = differs(gas->cells, *list, *count);
+    if (!*changed) {
+        free(*list);
+        *list = NULL;
+    }
+    return NULL;
+}
+
+/* What goes from one store to another: the old one, and numbers of both. */
+struct transfer {
+    const struct cell_blocks *from, *to;
+    const double *old[GAS_NUMBERS + 1]; /* conserved ones, shocks */
+    double *new[GAS_NUMBERS + 1];
+};
+
+static void copy_cell(const struct transfer *t, int32_t from, int32_t to)
+{
+    t->to->body[to] = t->from->body[from];
+    t->to->material[to] = t->from->material[from];
+    for (int n = 0; n <= GAS_SHOCK; n++)
+        t->new[n][to] = t->old[n][from];
+}
+
+static void merge_cells(const struct transfer *t, const struct cell_block *old, const int64_t at[3],
+                        int32_t to)
+{
+    const int dimension = t->from->dimension, parts = 1 << dimension;
+    double sum[GAS_NUMBERS] = {0.0};
+    int shock = 0;
+    for (int k = parts - 1; k >= 0; k--) {
+        int64_t part[3] = {0, 0, 0};
+        for (int axis = 0; axis < dimension; axis++)
+            part[axis] = 2 * at[axis] + (k >> axis & 1);
+        const int32_t i = cell_index_in(old, part);
+        copy_cell(t, i, to);
+        for (int n = 0; n < GAS_NUMBERS; n++)
+            sum[n] += t->old[n][i];
+        shock |= (int)t->old[GAS_SHOCK][i];
+    }
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        t->new[n][to] = sum[n] / parts;
+    t->new[GAS_SHOCK][to] = shock;
+}
+
+static double lesser(double a, double b) { return a * b <= 0.0 ? 0.0 : fabs(a) < fabs(b) ? a : b; }
+
+static double heat_of(const double u[GAS_NUMBERS])
+{
+    return u[GAS_ENERGY] - 0.5 *
+                               (square(u[GAS_MOMENTUM]) + square(u[GAS_MOMENTUM + 1]) +
+                                square(u[GAS_MOMENTUM + 2])) /
+                               u[GAS_DENSITY];
+}
+
+/* Divides cell AT of OLD into its parts in NEW: with slopes, or without if one would lose its
+ * heat. */
+static void divide_cell(const struct transfer *t, const struct cell_block *old, const int64_t at[3],
+                        const struct cell_block *new)
+{
+    const int dimension = t->from->dimension, parts = 1 << dimension;
+    const int32_t i = cell_index_in(old, at);
+    double slope[3][GAS_NUMBERS] = {{0.0}}, part[8][GAS_NUMBERS], mean[GAS_NUMBERS];
+    for (int axis = 0; axis < dimension; axis++) {
+        const int32_t stride = cell_stride(old, axis);
+        const int64_t c = at[axis] - old->corner[axis];
+        for (int n = 0; n < GAS_NUMBERS && c > 0 && c < old->count[axis] - 1; n++)
+            slope[axis][n] =
+                lesser(t->old[n][i] - t->old[n][i - stride], t->old[n][i + stride] - t->old[n][i]);
+    }
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        mean[n] = t->old[n][i];
+    bool holds = true;
+    for (int k = 0; k < parts; k++) {
+        memcpy(part[k], mean, sizeof mean);
+        for (int axis = 0; axis < dimension; axis++)
+            for (int n = 0; n < GAS_NUMBERS; n++)
+                part[k][n] += (k >> axis & 1 ? 0.25 : -0.25) * slope[axis][n];
+        holds &= heat_of(part[k]) > GAS_LEAST * heat_of(mean);
+    }
+    for (int k = 0; k < parts; k++) {
+        int64_t to[3] = {0, 0, 0};
+        for (int axis = 0; axis < dimension; axis++)
+            to[axis] = 2 * at[axis] + (k >> axis & 1);
+        const int32_t j = cell_index_in(new, to);
+        copy_cell(t, i, j);
+        for (int n = 0; n < GAS_NUMBERS && holds; n++)
+            t->new[n][j] = part[k][n];
+    }
+}
+
+/* Fills block NEW. */
+static void fill_block(const struct transfer *t, const struct cell_block *new)
+{
+    const int dimension = t->from->dimension;
+    int64_t at[3];
+    int step[3];
+    const struct cell_block *old = cell_block_cover(t->from, new->level, new->corner);
+    for (int axis = 0; axis < 3; axis++)
+        step[axis] = old->level > new->level &&axis < dimension ? 2 : 1;
+    for (at[2] = new->corner[2]; at[2] < new->corner[2] + new->count[2]; at[2] += step[2])
+        for (at[1] = new->corner[1]; at[1] < new->corner[1] + new->count[1]; at[1] += step[1])
+            for (at[0] = new->corner[0]; at[0] < new->corner[0] + new->count[0]; at[0] += step[0]) {
+                const struct cell_block *source =
+                    old->level < new->level ? cell_block_cover(t->from, new->level, at) : old;
+                int64_t whole[3] = {0, 0, 0};
+                for (int axis = 0; axis < dimension; axis++)
+                    whole[axis] = block_of_cell(at[axis], 2);
+                if (source->level == new->level)
+                    copy_cell(t, cell_index_in(source, at), cell_index_in(new, at));
+                else if (source->level < new->level)
+                    merge_cells(t, source, at, cell_index_in(new, at));
+                else
+                    divide_cell(t, source, whole, new);
+            }
+}
+
+/* The state moves into LIST, COUNT blocks, which is taken over. */
+static struct error *move(struct gas *gas, struct cell_block *list, int64_t count, int threads)
+{
+    struct cell_blocks *cells = gas->cells, old;
+    struct transfer t = {.from = &old, .to = cells};
+    for (int n = 0; n <= GAS_SHOCK; n++)
+        t.old[n] = gas->u[n];
+    struct error *error = cell_blocks_renew(cells, list, (int32_t)count, &old);
+    if (!error) {
+        gas_bind(gas, cells);
+        for (int n = 0; n <= GAS_SHOCK; n++)
+            t.new[n] = gas->u[n];
+#pragma omp parallel for schedule(static) num_threads(threads)
+        for (int32_t b = 0; b < cells->blocks; b++)
+            fill_block(&t, &cells->block[b]);
+    }
+    cell_blocks_destroy(&old);
+    return error;
+}
+
+struct error *gas_regrid(struct gas *gas, struct simulation *simulation)
+{
+    const int64_t every = gas->parameters.regrid;
+    struct cell_block *list = NULL;
+    int64_t count = 0;
+    bool changed = false;
+    if (gas->cells->levels < 2 || every == 0 || simulation->step == 0 ||
+        simulation->step % every != 0)
+        return NULL;
+    TRY(gas_ask_levels(gas, simulation->threads, &list, &count, &changed));
+    if (!changed)
+        return NULL;
+    TRY(move(gas, list, count, simulation->threads));
+    TRY(gas_plan(gas, simulation));
+    return gas_derive(gas, simulation, NULL);
+}
