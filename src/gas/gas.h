@@ -7,11 +7,13 @@
 #include "model/solver.h"
 
 struct gas_parameters {
-    struct one_of method; /* "gas-method" */
-    double courant;       /* NAN: by the method */
-    double ambient;       /* Pa, of the air before a blast, for maps; NAN: none */
-    int64_t regrid;       /* steps between changes of levels; 0: they stay */
-    bool burnt;           /* by a coupling: explosives that come into cells have burnt */
+    struct one_of method;  /* "gas-method" */
+    double courant;        /* NAN: by the method */
+    double ambient;        /* Pa, of the air before a blast, for maps; NAN: none */
+    int64_t regrid;        /* steps between changes of levels; 0: they stay */
+    double cells_to_front; /* that follow waves, from `center` on; NAN: as fine as `resolution` */
+    struct vector_value center; /* count 0: the origin */
+    bool burnt;                 /* by a coupling: explosives that come into cells have burnt */
 };
 
 /* `solver: {gas: {...}}`. */

@@ -60,5 +60,11 @@ const struct parameter gas_table[] = {
         "with several `levels`, the number of steps after which cells become finer or coarser "
         "to follow pressure waves; 0: they stay as they begin",
         .below = INFINITY, .closed = true),
+    PARAMETER(NUMBER, struct gas_parameters, cells_to_front, OPTIONAL,
+              "with several `levels`, cells that follow waves are not finer than so many between "
+              "`center` and them; default: as fine as `resolution`",
+              .below = INFINITY),
+    PARAMETER(VECTOR, struct gas_parameters, center, OPTIONAL,
+              "where the blast begins, for `cells_to_front`; default: the origin", .unit = "m"),
     PARAMETER_END,
 };

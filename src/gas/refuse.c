@@ -224,6 +224,10 @@ static void refuse_levels(const struct simulation *simulation,
         text = "with several levels of cells a run begins with bodies: leave `start` out";
     if (text)
         finding_add(findings, FINDING_WRONG, "levels", NULL, "%s", text);
+    if (parameters->center.count && parameters->center.count != input->dimension)
+        finding_add(findings, FINDING_WRONG, "solver", "gas.center",
+                    "expected %d component%s, one per dimension", (int)input->dimension,
+                    input->dimension == 1 ? "" : "s");
     for (int b = 0; b < input->boundaries.count; b++) {
         const int kind = case_boundary(input, b)->kind;
         if (kind == BOUNDARY_RIGID_BODY || kind == BOUNDARY_PERIODIC || kind == BOUNDARY_INFLOW)

@@ -53,6 +53,26 @@ static void mark_near(const struct cell_block *block, int dimension, const int c
     }
 }
 
+/* The level whose cells are as wide as the nearest place of BLOCK from the centre of the blast lets
+ * them be. */
+static int level_by_distance(const struct gas *gas, const struct cell_block *block)
+{
+    const struct vector_value *center = &gas->parameters.center;
+    const double edge = cell_block_edge(gas->cells, block), cells = gas->parameters.cells_to_front;
+    double far = 0.0;
+    int level = 0;
+    for (int axis = 0; axis < gas->cells->dimension; axis++) {
+        const double low = (double)block->corner[axis] * edge,
+                     high = low + block->count[axis] * edge,
+                     from = center->count ? center->at[axis] : 0.0;
+        far += square(maximum(maximum(low - from, from - high), 0.0));
+    }
+    while (level + 1 < gas->cells->levels &&
+           cells * gas->cells->edge * (double)(2 << level) <= sqrt(far))
+        level++;
+    return level;
+}
+
 /* What block B asks for by its own pressures. */
 static struct demand demand_of(const struct gas *gas, int32_t b)
 {
@@ -78,8 +98,11 @@ static struct demand demand_of(const struct gas *gas, int32_t b)
                 most = maximum(most, bend);
             }
     demand.level += most > FINER ? -1 : most > COARSER ? 0 : 1;
-    if (demand.level < 0)
-        demand.level = 0;
+    int least = isnan(gas->parameters.cells_to_front) ? 0 : level_by_distance(gas, block);
+    if (least > block->level + 1)
+        least = block->level + 1;
+    if (demand.level < least)
+        demand.level = least;
     return demand;
 }
 
