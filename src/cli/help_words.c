@@ -101,11 +101,9 @@ static const struct answer answers[] = {
      "Concrete has a compaction curve: eos: hjc with strength: hjc.",
      "microstructures.md"},
     {" honeycomb sandwich sandwich.panel corrugated core.panel ",
-     "There is no homogenised core: draw the walls of the cells, in 2-D with `polygon` or "
-     "`repeat`,\n"
-     "in 3-D with boxes or a `mesh`. Walls need three particles across, so foils of 0.1 mm are\n"
-     "mostly out of reach in 3-D.",
-     "microstructures.md"},
+     "The shape `honeycomb` draws the walls of hexagons or squares, and `weights` give them their\n"
+     "mass at any cell size. Corrugated cores: `polygon` or `repeat`. There is no homogenised core.",
+     "panels.md"},
     {" mixture two.component two.phase impedance.mismatch thermal.equilibrium "
      "velocity.equilibrium ",
      "Grains of both materials are resolved; `profiles` with `by: material` have means by "
