@@ -55,25 +55,35 @@ static struct error *check_filled(const struct place *place, const struct face_p
     return error;
 }
 
+/* Cells of the finest level in a box, and so many AROUND it. */
+static void pin(struct cell_blocks *cells, struct bounds box, int around)
+{
+    struct cell_region *region = &cells->region[cells->regions++];
+    for (int axis = 0; axis < 3; axis++) {
+        const double low = vec3_at(box.low, axis) + 1e-6 * cells->edge,
+                     high = vec3_at(box.high, axis) - 1e-6 * cells->edge;
+        region->low[axis] = cell_index(low, cells->edge, INT32_MAX) - around;
+        region->high[axis] = cell_index(high, cells->edge, INT32_MAX) + 1 + around;
+    }
+}
+
+/* Where levels meet no cell is blocked, up to two of the next wider ones from there. */
 struct error *gas_take_levels(const struct simulation *simulation, struct cell_blocks *cells)
 {
     const struct simulation_case *input = simulation->problem->input;
     cells->levels = simulation->problem->place.is_part ? 1 : (int)input->levels;
     if (cells->levels < 2)
         return NULL;
-    cells->region = memory_allocate(((size_t)input->fine.count + 1) * sizeof *cells->region);
+    enum { AROUND_BODIES = 4 };
+    const int most = input->fine.count + input->boundaries.count + 1;
+    cells->region = memory_allocate((size_t)most * sizeof *cells->region);
     if (!cells->region)
         return out_of_memory();
-    for (int k = 0; k < input->fine.count; k++) {
-        const struct bounds box = shape_bounds(&case_fine(input, k)->shape);
-        struct cell_region *region = &cells->region[cells->regions++];
-        for (int axis = 0; axis < 3; axis++) {
-            const double low = vec3_at(box.low, axis) + 1e-6 * cells->edge,
-                         high = vec3_at(box.high, axis) - 1e-6 * cells->edge;
-            region->low[axis] = cell_index(low, cells->edge, INT32_MAX);
-            region->high[axis] = cell_index(high, cells->edge, INT32_MAX) + 1;
-        }
-    }
+    for (int k = 0; k < input->fine.count; k++)
+        pin(cells, shape_bounds(&case_fine(input, k)->shape), 0);
+    for (int b = 0; b < input->boundaries.count; b++)
+        if (case_boundary(input, b)->kind == BOUNDARY_RIGID_BODY)
+            pin(cells, shape_bounds(&case_boundary(input, b)->part), AROUND_BODIES);
     return NULL;
 }
 

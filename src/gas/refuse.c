@@ -230,7 +230,7 @@ static void refuse_levels(const struct simulation *simulation,
                     input->dimension == 1 ? "" : "s");
     for (int b = 0; b < input->boundaries.count; b++) {
         const int kind = case_boundary(input, b)->kind;
-        if (kind == BOUNDARY_RIGID_BODY || kind == BOUNDARY_PERIODIC || kind == BOUNDARY_INFLOW)
+        if (kind == BOUNDARY_PERIODIC || kind == BOUNDARY_INFLOW)
             finding_add(findings, FINDING_WRONG, "boundaries", input->boundaries.names[b],
                         "with several levels of cells no boundary is of kind %s",
                         boundary_kind_name(kind));

@@ -31,6 +31,8 @@ struct demand {
 
 static double bend_of(double low, double middle, double high)
 {
+    if (!(minimum(minimum(low, high), middle) > 0.0)) /* an obstacle blocks one */
+        return 0.0;
     const double change = fabs(high - low) / minimum(low, high);
     const double bend =
         fabs(high - 2.0 * middle + low) /
@@ -186,6 +188,8 @@ struct error *gas_ask_levels(struct gas *gas, int threads, struct cell_block **l
 /* What goes from one store to another: the old one, and numbers of both. */
 struct transfer {
     const struct cell_blocks *from, *to;
+    const double *was_open; /* NULL: all cells are */
+    double *open;
     const double *old[GAS_NUMBERS + 1]; /* conserved ones, shocks */
     double *new[GAS_NUMBERS + 1];
 };
@@ -194,6 +198,8 @@ static void copy_cell(const struct transfer *t, int32_t from, int32_t to)
 {
     t->to->body[to] = t->from->body[from];
     t->to->material[to] = t->from->material[from];
+    if (t->open)
+        t->open[to] = t->was_open[from];
     for (int n = 0; n <= GAS_SHOCK; n++)
         t->new[n][to] = t->old[n][from];
 }
@@ -295,12 +301,13 @@ static void fill_block(const struct transfer *t, const struct cell_block *new)
 static struct error *move(struct gas *gas, struct cell_block *list, int64_t count, int threads)
 {
     struct cell_blocks *cells = gas->cells, old;
-    struct transfer t = {.from = &old, .to = cells};
+    struct transfer t = {.from = &old, .to = cells, .was_open = gas->open};
     for (int n = 0; n <= GAS_SHOCK; n++)
         t.old[n] = gas->u[n];
     struct error *error = cell_blocks_renew(cells, list, (int32_t)count, &old);
     if (!error) {
         gas_bind(gas, cells);
+        t.open = gas->open;
         for (int n = 0; n <= GAS_SHOCK; n++)
             t.new[n] = gas->u[n];
 #pragma omp parallel for schedule(static) num_threads(threads)

@@ -145,6 +145,8 @@ static void put(const struct gas *gas, int axis, const struct cell_seam *seam, i
     for (int n = 0; n < GAS_NUMBERS; n++)
         cell_plane(&gas->halo, dimension, axis, seam->plane, n)[row] = of[n];
     cell_plane(&gas->halo, dimension, axis, seam->plane, GAS_SHOCK)[row] = shock;
+    if (gas->layout.open >= 0) /* no cell is blocked here */
+        cell_plane(&gas->halo, dimension, axis, seam->plane, gas->layout.open)[row] = 1.0;
 }
 
 /* Puts the parts, beyond a fine block, of the coarse cell one of which is AT, in row I, J. */

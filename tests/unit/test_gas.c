@@ -132,6 +132,14 @@ static const char levels_that_stay[] =
     "pressure: 0.1 MPa}\n"
     "  hot: {material: air, ball: {center: [0.3 m, 0.2 m], radius: 0.05 m}, pressure: 5 MPa, "
     "replaces: air}\n" END;
+static const char blocked_levels[] =
+    "format: 1\ndimension: 2\nresolution: 4 mm\nlevels: 3\nsolver: gas\n" AIR "bodies:\n"
+    "  air: {material: air, box: {from: [0 m, 0 m], to: [1.28 m, 0.8 m]}, pressure: 0.1 MPa}\n"
+    "  hot: {material: air, ball: {center: [0.3 m, 0.2 m], radius: 0.05 m}, pressure: 5 MPa, "
+    "replaces: air}\n"
+    "obstacles:\n"
+    "  block: {box: {from: [0.384 m, 0.1 m], to: [0.512 m, 0.3 m]}}\n"
+    "  plate: {box: {from: [0.2 m, 0.28 m], to: [0.36 m, 0.288 m]}}\n" END;
 static const char space_of_levels[] =
     "format: 1\ndimension: 3\nresolution: 20 mm\nlevels: 3\nsolver: gas\n"
     "fine: {hot: {box: {from: [0.3 m, 0.2 m, 0.2 m], to: [0.31 m, 0.21 m, 0.21 m]}}}\n" AIR
@@ -158,6 +166,7 @@ static const struct {
              {"line of levels", line_of_levels, 2 * STEPS},
              {"plane of levels", plane_of_levels, STEPS / 2},
              {"levels that stay", levels_that_stay, STEPS / 2},
+             {"blocked levels", blocked_levels, STEPS / 2},
              {"space of levels", space_of_levels, STEPS / 4},
              {"heavy", heavy, STEPS}};
 
