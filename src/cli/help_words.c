@@ -102,7 +102,8 @@ static const struct answer answers[] = {
      "microstructures.md"},
     {" honeycomb sandwich sandwich.panel corrugated core.panel ",
      "The shape `honeycomb` draws the walls of hexagons or squares, and `weights` give them their\n"
-     "mass at any cell size. Corrugated cores: `polygon` or `repeat`. There is no homogenised core.",
+     "mass at any cell size. Corrugated cores: `polygon` or `repeat`. There is no homogenised\n"
+     "core.",
      "panels.md"},
     {" mixture two.component two.phase impedance.mismatch thermal.equilibrium "
      "velocity.equilibrium ",
