@@ -1,9 +1,12 @@
 /* The box that the gas solver computes, in cells, what is outside its faces, the planes there that
  * no rule of the halo fills, and what leaves through faces. */
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "base/memory.h"
 #include "gas/gas_internal.h"
+#include "grid/levels.h"
 #include "material/material.h"
 #include "model/boundaries.h"
 #include "parallel/block.h"
@@ -68,10 +71,10 @@ static void pin(struct cell_blocks *cells, struct bounds box, int around)
 }
 
 /* Where levels meet no cell is blocked, up to two of the next wider ones from there. */
-struct error *gas_take_levels(const struct simulation *simulation, struct cell_blocks *cells)
+struct error *gas_take_levels(const struct simulation_case *input, int levels,
+                              struct cell_blocks *cells)
 {
-    const struct simulation_case *input = simulation->problem->input;
-    cells->levels = simulation->problem->place.is_part ? 1 : (int)input->levels;
+    cells->levels = levels;
     if (cells->levels < 2)
         return NULL;
     enum { AROUND_BODIES = 4 };
@@ -85,6 +88,36 @@ struct error *gas_take_levels(const struct simulation *simulation, struct cell_b
         if (case_boundary(input, b)->kind == BOUNDARY_RIGID_BODY)
             pin(cells, shape_bounds(&case_boundary(input, b)->part), AROUND_BODIES);
     return NULL;
+}
+
+double gas_part_of_cells(const struct simulation_case *input)
+{
+    static const double reach = 1e6; /* cells */
+    const double width = ldexp(1.0, (int)input->levels);
+    struct cell_blocks cells = {
+        .dimension = (int)input->dimension, .edge = input->resolution, .high = {1, 1, 1}};
+    double all = 1.0, found = 0.0;
+    for (int axis = 0; axis < cells.dimension; axis++) {
+        const double low = nearbyint(domain_face(input, axis, 0).at / cells.edge),
+                     high = nearbyint(domain_face(input, axis, 1).at / cells.edge);
+        if (!(fabs(low) < reach && fabs(high) < reach && high > low) || fmod(low, width) != 0.0 ||
+            fmod(high, width) != 0.0)
+            return 1.0;
+        cells.low[axis] = (int64_t)low;
+        cells.high[axis] = (int64_t)high;
+        all *= high - low;
+    }
+    struct cell_block *list = NULL;
+    int64_t count = 0;
+    struct error *error = gas_take_levels(input, (int)input->levels, &cells);
+    if (!error)
+        error = levels_list(&cells, NULL, 0, &list, &count);
+    for (int64_t b = 0; b < count && !error; b++)
+        found += (double)list[b].count[0] * list[b].count[1] * list[b].count[2];
+    free(cells.region);
+    free(list);
+    error_free(error);
+    return found > 0.0 ? found / all : 1.0;
 }
 
 struct error *gas_find_domain(const struct simulation *simulation, struct cell_blocks *cells)

@@ -154,7 +154,9 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
         return out_of_memory();
     cells->dimension = simulation->problem->dimension;
     cells->edge = simulation->problem->place.resolution;
-    TRY(gas_take_levels(simulation, cells));
+    TRY(gas_take_levels(
+        simulation->problem->input,
+        simulation->problem->place.is_part ? 1 : (int)simulation->problem->input->levels, cells));
     cells->ranks = simulation->ranks;
     cells->partition = &simulation->partition;
     cells->threads = simulation->threads;
@@ -434,6 +436,8 @@ static void gas_count(const void *parameters, const struct simulation_case *inpu
 {
     (void)parameters;
     counted->box = domain_bounds(input);
+    if (input->levels > 1)
+        counted->part = gas_part_of_cells(input);
 }
 
 static double gas_step(const void *parameters, const struct simulation_case *input,

@@ -243,6 +243,8 @@ struct error *levels_list(const struct cell_blocks *cells, const struct cell_wan
     if (room)
         return NULL;
     free(blocks.block);
+    *list = NULL;
+    *count = 0;
     return out_of_memory_for("cells");
 }
 

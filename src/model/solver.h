@@ -36,6 +36,7 @@ BOLIDE_INLINE struct limit limit_of_ranks(const struct ranks *ranks, struct rank
  * each. */
 struct counted {
     struct bounds box;
+    double part; /* of the sites there that get a member at the start; 0: all */
     double cells, bytes;
 };
 

@@ -129,6 +129,8 @@ static struct error *estimate_with(const struct simulation_case *input, struct e
         estimate->body[i].velocity = body_velocity(input, i);
         add_body(input, i, estimate);
     }
+    if (counted.part > 0.0)
+        estimate->particles = (int64_t)((double)estimate->particles * counted.part + 0.5);
     free(summary);
     if (error) {
         estimate_free(estimate);
