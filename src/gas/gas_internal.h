@@ -206,6 +206,15 @@ struct error *gas_ask_levels(struct gas *gas, int threads, struct cell_block **l
                              bool *changed);
 struct error *gas_regrid(struct gas *gas, struct simulation *simulation);
 
+/* The mean of PARTS numbers, a power of two, which it overwrites; of equal ones to the bit. */
+BOLIDE_INLINE double gas_mean_of_parts(double *part, int parts)
+{
+    for (int half = parts / 2; half > 0; half /= 2)
+        for (int k = 0; k < half; k++)
+            part[k] += part[k + half];
+    return part[0] / parts;
+}
+
 /* Books what left STRIP of a sweep along AXIS in DT. */
 void gas_book(const struct gas *gas, const struct simulation *simulation,
               const struct gas_strip *strip, const struct gas_through *through, int axis, double dt,

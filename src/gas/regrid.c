@@ -208,7 +208,7 @@ static void merge_cells(const struct transfer *t, const struct cell_block *old, 
                         int32_t to)
 {
     const int dimension = t->from->dimension, parts = 1 << dimension;
-    double sum[GAS_NUMBERS] = {0.0};
+    double of[GAS_NUMBERS][8];
     int shock = 0;
     for (int k = parts - 1; k >= 0; k--) {
         int64_t part[3] = {0, 0, 0};
@@ -217,11 +217,11 @@ static void merge_cells(const struct transfer *t, const struct cell_block *old, 
         const int32_t i = cell_index_in(old, part);
         copy_cell(t, i, to);
         for (int n = 0; n < GAS_NUMBERS; n++)
-            sum[n] += t->old[n][i];
+            of[n][k] = t->old[n][i];
         shock |= (int)t->old[GAS_SHOCK][i];
     }
     for (int n = 0; n < GAS_NUMBERS; n++)
-        t->new[n][to] = sum[n] / parts;
+        t->new[n][to] = gas_mean_of_parts(of[n], parts);
     t->new[GAS_SHOCK][to] = shock;
 }
 

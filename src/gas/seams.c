@@ -80,6 +80,7 @@ static bool take(const struct gas *gas, int level, const int64_t at[3],
     }
     assert(block->level == level - 1);
     const int parts = 1 << cells->dimension;
+    double of[GAS_NUMBERS][8];
     int64_t first[3];
     int shock = 0;
     change_level(cells->dimension, at, -1, first);
@@ -88,11 +89,11 @@ static bool take(const struct gas *gas, int level, const int64_t at[3],
                                  first[2] + (k >> 2 & 1)};
         const int32_t i = cell_index_in(block, part);
         for (int n = 0; n < GAS_NUMBERS; n++)
-            to->of[n] += gas->u[n][i];
+            of[n][k] = gas->u[n][i];
         shock |= (int)gas->u[GAS_SHOCK][i];
     }
     for (int n = 0; n < GAS_NUMBERS; n++)
-        to->of[n] /= parts;
+        to->of[n] = gas_mean_of_parts(of[n], parts);
     to->shock = shock;
     return true;
 }
