@@ -230,6 +230,7 @@ struct output_input {
     struct named_map pictures; /* struct picture_input; drawn at every snapshot */
     struct named_map maps;     /* struct map_input */
     bool snapshots;            /* write VTKHDF files */
+    bool faces;                /* write faces.csv */
     bool fragments;            /* write fragments.csv and the field `fragment` */
     double fragment_link;      /* up to which their particles are connected (measure/connected.h) */
 };

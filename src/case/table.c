@@ -105,6 +105,9 @@ static const struct parameter output_table[] = {
               .table = case_map_table, .size = sizeof(struct map_input), .change = CHANGE_NEVER),
     PARAMETER(FLAG, struct output_input, snapshots, "yes",
               "whether snapshots are written as VTKHDF files"),
+    PARAMETER(FLAG, struct output_input, faces, "no",
+              "whether faces.csv lists what the maps have on the faces of rigid bodies by the last "
+              "snapshot, a row for each face of a cell"),
     PARAMETER(FLAG, struct output_input, fragments, "no",
               "whether fragments.csv lists the fragments into which bodies have broken by the last "
               "snapshot, and snapshots and pictures have their numbers as the field `fragment`"),

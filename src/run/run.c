@@ -20,6 +20,7 @@
 #include "model/generate.h"
 #include "model/maps.h"
 #include "model/particles/held.h"
+#include "output/faces.h"
 #include "run/fit_axes.h"
 #include "run/forecast.h"
 #include "run/pictures.h"
@@ -242,6 +243,12 @@ static struct error *check_fragments(const struct run *run)
                        "only particles form fragments, not the cells of this solver");
 }
 
+static struct error *check_faces(const struct run *run)
+{
+    const char *wrong = run->input->output.faces ? faces_missing(&run->simulation) : NULL;
+    return wrong ? input_error(run->input, "output", "faces", "%s", wrong) : NULL;
+}
+
 /* Readies what comes later, probes, checks and pictures, so that their mistakes are told now. */
 static struct error *look_ahead(struct run *run)
 {
@@ -256,6 +263,7 @@ static struct error *look_ahead(struct run *run)
     if (run->checks)
         error = error_join(error, fits_prepare(run->input, run->checks));
     error = error_join(error, check_fragments(run));
+    error = error_join(error, check_faces(run));
     error = error_join(error, maps_check(&run->simulation));
     return error_join(error, check_pictures(run));
 }

@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "measure/fragments.h"
+#include "output/faces.h"
 #include "output/snapshot.h"
 #include "picture/album.h"
 #include "run/run_internal.h"
@@ -404,6 +405,17 @@ static struct error *write_with_fragments(struct run *run, int64_t number)
     return error;
 }
 
+/* faces.csv of this moment, which replaces an earlier one. */
+static struct error *write_faces(const struct run *run)
+{
+    char *path = run_path(run, "faces.csv");
+    struct error *error = ranks_agree(&run->ranks, path ? NULL : out_of_memory());
+    if (!error)
+        error = faces_write(path, &run->simulation, &run->ranks);
+    free(path);
+    return error;
+}
+
 bool run_reserve_snapshots(struct run *run, int64_t count, int64_t kept)
 {
     int64_t room = run->snapshot_room;
@@ -422,6 +434,8 @@ static struct error *write_snapshot(struct run *run)
     run->snapshot_times[run->snapshots++] = run->simulation.time;
     if (!run->options->output)
         return NULL;
+    if (run->input->output.faces)
+        TRY(write_faces(run));
     return run->input->output.fragments ? write_with_fragments(run, number)
                                         : write_population(run, &run->population, number);
 }
