@@ -24,6 +24,18 @@ class Failed(RuntimeError):
         self.status = status
 
 
+def as_json(value, indent=None):
+    """VALUE as JSON that the program reads: flags are `yes` and `no` in a case."""
+    def plain(part):
+        if isinstance(part, bool):
+            return "yes" if part else "no"
+        if isinstance(part, dict):
+            return {key: plain(one) for key, one in part.items()}
+        return [plain(one) for one in part] if isinstance(part, (list, tuple)) else part
+
+    return json.dumps(plain(value), indent=indent, ensure_ascii=False)
+
+
 def find_program():
     """The program: $BOLIDE, the one in PATH, or the one that came with this package."""
     given = os.environ.get("BOLIDE") or shutil.which("bolide")
@@ -53,13 +65,12 @@ class Case:
     def of(cls, tree, path, **options):
         """Writes the case TREE, a dict as the file would have it, to PATH. Quantities are texts with
         their units, "800 m/s"."""
-        pathlib.Path(path).write_text(json.dumps(tree, indent=1, ensure_ascii=False) + "\n",
-                                      encoding="utf-8")
+        pathlib.Path(path).write_text(as_json(tree, 1) + "\n", encoding="utf-8")
         return cls(path, **options)
 
     def set(self, key, value):
         """Replaces the value of KEY, bodies.flyer.velocity; None removes it. Returns the case."""
-        text = value if isinstance(value, str) else "" if value is None else json.dumps(value)
+        text = value if isinstance(value, str) else "" if value is None else as_json(value)
         self.settings.pop(key, None)
         self.settings[key] = text
         return self

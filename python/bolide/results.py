@@ -71,12 +71,12 @@ class Results:
     @property
     def profiles(self):
         """{name: [Table of the first snapshot, ...]}."""
-        lists = {}
-        for name in self._names("profiles"):
-            match = NUMBERED.fullmatch(name)
-            if match:
-                lists.setdefault(match[1], []).append(Table(self.folder / "profiles" / name))
-        return self._named("profiles", lists)
+        return self._lists("profiles")
+
+    @property
+    def histograms(self):
+        """{name: [Table of the first snapshot, ...]}."""
+        return self._lists("histograms")
 
     @property
     def checks(self):
@@ -113,6 +113,14 @@ class Results:
         return self._named("runs", {name: Results(self.folder / name)
                                     for name in self.sweep["run"]
                                     if (self.folder / name / "summary.csv").exists()})
+
+    def _lists(self, folder):
+        lists = {}
+        for name in self._names(folder):
+            match = NUMBERED.fullmatch(name)
+            if match:
+                lists.setdefault(match[1], []).append(Table(self.folder / folder / name))
+        return self._named(folder, lists)
 
     def _names(self, folder):
         path = self.folder / folder

@@ -25,7 +25,8 @@ static const char *const result_files[] = {
 };
 /* The cases before each change of a resumed run. */
 static const char earlier_cases[] = "case-" RESULTS_NUMBER ".yaml";
-static const char *const result_folders[] = {"snapshots", "pictures", "probes", "profiles"};
+static const char *const result_folders[] = {"snapshots", "pictures", "probes", "profiles",
+                                             "histograms"};
 
 static struct error *remove_file(const char *path)
 {

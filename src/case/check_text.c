@@ -82,6 +82,7 @@ static void check_names(struct checking *checking)
                 {"probes", &input->probes, true},
                 {"profiles", &input->profiles, true},
                 {"output.maps", &input->output.maps, true},
+                {"output.histograms", &input->output.histograms, true},
                 {"checks", &input->checks, false},
                 {"expected_warnings", &input->expected, false}};
     for (size_t k = 0; k < COUNT_OF(maps); k++) {

@@ -18,6 +18,7 @@ extern const struct parameter case_load_table[];        /* struct load_input */
 extern const struct parameter case_probe_table[];       /* struct probe_input */
 extern const struct parameter case_profile_table[];     /* struct profile_input */
 extern const struct parameter case_map_table[];         /* struct map_input */
+extern const struct parameter case_histogram_table[];   /* struct histogram_input */
 extern const struct parameter case_picture_table[];     /* struct picture_input */
 extern const struct parameter case_fit_table[];         /* struct fit_input */
 extern const struct parameter case_expected_table[];    /* struct expected_warning_input */

@@ -1,4 +1,4 @@
-/* The keys of what is watched while a case runs: probes and profiles. */
+/* The keys of what is watched while a case runs: probes, profiles and histograms. */
 #include "case/internal.h"
 
 static const char *const by_names[] = {"nothing", "material", "body", NULL};
@@ -41,5 +41,32 @@ const struct parameter case_profile_table[] = {
               .unit = "m"),
     PARAMETER(CHOICE, struct profile_input, by, "nothing",
               "whether each material or body has a profile of its own", .names = by_names),
+    PARAMETER_END,
+};
+
+const char *const weight_names[] = {"number", "mass", "volume", NULL};
+
+static const struct parameter histogram_range_table[] = {
+    PARAMETER(QUANTITY, struct histogram_range, low, OPTIONAL,
+              "lower end of the first bin; default: the least value"),
+    PARAMETER(QUANTITY, struct histogram_range, high, OPTIONAL,
+              "upper end of the last bin; default: the largest value"),
+    PARAMETER_END,
+};
+
+const struct parameter case_histogram_table[] = {
+    PARAMETER(TEXT, struct histogram_input, field, REQUIRED,
+              "a field, or one component of it: speed, velocity.x"),
+    PARAMETER(NAMES, struct histogram_input, of, OPTIONAL,
+              "the bodies whose particles count; default: all"),
+    PARAMETER(INTEGER, struct histogram_input, bins, "50", "number of bins", .above = 1,
+              .below = PROFILE_BINS, .closed = true),
+    PARAMETER(TABLE, struct histogram_input, range, OPTIONAL,
+              "where the bins begin and end; values outside count in the total alone",
+              .table = histogram_range_table),
+    PARAMETER(FLAG, struct histogram_input, log, "no",
+              "whether each bin is wider than the one before by the same ratio"),
+    PARAMETER(CHOICE, struct histogram_input, weight, "mass",
+              "what each particle or cell counts by", .names = weight_names),
     PARAMETER_END,
 };

@@ -103,6 +103,9 @@ static const struct parameter output_table[] = {
               "what is kept of fields over the time, each as a field of its own for pictures, "
               "probes and snapshots: peaks, arrivals, impulses",
               .table = case_map_table, .size = sizeof(struct map_input), .change = CHANGE_NEVER),
+    PARAMETER(MAP, struct output_input, histograms, OPTIONAL,
+              "how the values of fields are distributed, at every snapshot, by name",
+              .table = case_histogram_table, .size = sizeof(struct histogram_input)),
     PARAMETER(FLAG, struct output_input, snapshots, "yes",
               "whether snapshots are written as VTKHDF files"),
     PARAMETER(FLAG, struct output_input, faces, "no",

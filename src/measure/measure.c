@@ -14,6 +14,14 @@ const struct parameter measure_field_table[] = {
     PARAMETER_END,
 };
 
+const struct parameter measure_weighted_table[] = {
+    PARAMETER_AS("field", TEXT, struct measure_weighted, of.field, REQUIRED,
+                 "a field of the particles, or one component of it: pressure, velocity.x"),
+    PARAMETER(CHOICE, struct measure_weighted, weight, "number",
+              "what each particle or cell counts by", .names = weight_names),
+    PARAMETER_END,
+};
+
 #define MEASURE_CHOICE(name, parameters, help)                                       \
     {#name, help, measure_##parameters##_table, sizeof(struct measure_##parameters), \
      &measure_##name},
@@ -172,8 +180,9 @@ struct error *samples_select(const struct population *population, const struct c
     for (int32_t i = 0; i < population->count; i++) {
         double at = place_of(selection, population->position[i]);
         if (population_has(population, i) && selects(selection, at, population->body[i]))
-            samples->at[samples->count++] = (struct sample){
-                at, values[i], population->mass[i] / population->density[i], population->body[i]};
+            samples->at[samples->count++] =
+                (struct sample){at, values[i], population->mass[i] / population->density[i],
+                                population->mass[i], population->body[i]};
     }
     free(values);
     return NULL;

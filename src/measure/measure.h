@@ -77,9 +77,16 @@ struct measure_field {
     char *field; /* a column or one component of it: "pressure", "velocity.x" */
 };
 
+/* A statistic over members, each of which counts by its number, mass or volume. */
+struct measure_weighted {
+    struct measure_field of;
+    int weight; /* enum weighing */
+};
+
 struct measure_quantile {
     struct measure_field of;
     double fraction;
+    int weight; /* enum weighing */
 };
 
 struct measure_front {
@@ -224,7 +231,7 @@ double conserved_change(const struct simulation *simulation, const struct totals
 /* X(name, parameters, help): a key of a check, its struct measure_<parameters> and
  * measure_<parameters>_table, and its measure_<name>, a struct measure_class. */
 #define MEASURE_LIST(X)                                                                           \
-    X(mean, field, "mean of a field over particles")                                              \
+    X(mean, weighted, "mean of a field over particles")                                           \
     X(minimum, field, "smallest value of a field")                                                \
     X(maximum, field, "largest value of a field")                                                 \
     X(quantile, quantile, "value of a field that a fraction of the particles does not exceed")    \
@@ -241,7 +248,7 @@ double conserved_change(const struct simulation *simulation, const struct totals
       "relative change of a total since the start, less what the ledger booked")                  \
     X(total, total, "a sum over particles: momentum.x, kinetic_energy")                           \
     X(decay, total, "decay rate of such a sum: the logarithm of start over now, over the time")   \
-    X(spread, field, "standard deviation of a field over particles")                              \
+    X(spread, weighted, "standard deviation of a field over particles")                           \
     X(extent, extent,                                                                             \
       "width of a body along an axis between its outermost particles, or its radius")             \
     X(turn, turn, "rotation angle of a body since the start, within half a turn")                 \
@@ -280,9 +287,15 @@ extern const struct choice measure_choices[MEASURES];
 /* One particle as a measure sees it. */
 struct sample {
     double at; /* position along the check's axis, or distance from its point */
-    double value, volume;
+    double value, volume, mass;
     int body;
 };
+
+/* What SAMPLE counts by. */
+static inline double sample_weight(const struct sample *sample, int weight)
+{
+    return weight == WEIGHT_MASS ? sample->mass : weight == WEIGHT_VOLUME ? sample->volume : 1.0;
+}
 
 struct samples {
     int64_t count;

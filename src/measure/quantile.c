@@ -1,5 +1,5 @@
-/* quantile: the value that a fraction of the particles does not exceed, each counting once. Unlike
- * the maximum it converges where single particles are thrown out. */
+/* quantile: the value that a fraction of the particles does not exceed, by number, mass or volume.
+ * Unlike the maximum it converges where single particles are thrown out. */
 #include <string.h>
 
 #include "measure/measure.h"
@@ -11,6 +11,8 @@ const struct parameter measure_quantile_table[] = {
     PARAMETER(NUMBER, struct measure_quantile, fraction, REQUIRED,
               "the fraction of the particles whose values are at most the result; 0.5: the median",
               .below = 1.0, .closed = true),
+    PARAMETER(CHOICE, struct measure_quantile, weight, "number",
+              "what each particle or cell counts by", .names = weight_names),
     PARAMETER_END,
 };
 
@@ -30,6 +32,18 @@ static double value_of(uint64_t rank)
     return value;
 }
 
+/* Collective: the weight of the samples that are LIMIT at most. */
+static double weight_within(const struct ranks *ranks, const struct samples *samples, int weight,
+                            double limit)
+{
+    struct exact_sum sum = {0};
+    for (int64_t i = 0; i < samples->count; i++)
+        if (samples->at[i].value <= limit)
+            exact_sum_add(&sum, sample_weight(&samples->at[i], weight));
+    ranks_sum_exact(ranks, &sum, 1);
+    return exact_sum_value(&sum);
+}
+
 /* Bisects: the least value that enough samples do not exceed is one of theirs. */
 static struct error *measure(const struct measurement *measurement, double *value)
 {
@@ -42,14 +56,12 @@ static struct error *measure(const struct measurement *measurement, double *valu
         lost += !isfinite(samples.at[i].value);
     lost = ranks_sum(ranks, lost);
     const int64_t count = ranks_sum(ranks, samples.count);
+    const double all = weight_within(ranks, &samples, quantile->weight, INFINITY);
     uint64_t low = rank_of(-INFINITY), high = rank_of(INFINITY);
     while (low < high) {
         const uint64_t middle = low + (high - low) / 2;
-        const double limit = value_of(middle);
-        int64_t within = 0;
-        for (int64_t i = 0; i < samples.count; i++)
-            within += samples.at[i].value <= limit;
-        if ((double)ranks_sum(ranks, within) >= quantile->fraction * (double)count)
+        if (weight_within(ranks, &samples, quantile->weight, value_of(middle)) >=
+            quantile->fraction * all)
             high = middle;
         else
             low = middle + 1;

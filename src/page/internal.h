@@ -80,7 +80,17 @@ void page_wave(FILE *file, const char *name, const struct page_wave *wave);
 void page_waves_foot(FILE *file);
 
 /* profiles.c */
+
+/* Plots what CSV has, whose file is called TITLE but for its number. */
+typedef struct error *page_table(const struct page *page, const struct csv *csv, const char *title);
+/* The last tables of the folder NAME of the results, by PLOT, between HEAD and FOOT; nothing where
+ * there is none. */
+struct error *page_last_tables(const struct page *page, const char *name, const char *head,
+                               const char *foot, page_table *plot);
 struct error *page_profiles(const struct page *page);
+
+/* histograms.c */
+struct error *page_histograms(const struct page *page);
 
 /* pictures.c */
 struct error *page_pictures(const struct page *page);

@@ -163,6 +163,7 @@ static struct error *put_page(const struct page *page)
     TRY(page_pictures(page));
     TRY(put_viewer(page));
     TRY(page_profiles(page));
+    TRY(page_histograms(page));
     TRY(page_history(page));
     page_about(page);
     page_speed(page);

@@ -86,15 +86,25 @@ static struct error *plot_field(const struct page *page, const struct csv *csv, 
     return error;
 }
 
-static struct error *plot_profile(const struct page *page, const char *folder, const char *file)
+static struct error *plot_profile(const struct page *page, const struct csv *csv, const char *title)
+{
+    struct error *error = NULL;
+    const bool named = !strcmp(csv_head(csv, 0), "material") || !strcmp(csv_head(csv, 0), "body");
+    for (int i = 0; i < csv->columns && csv->rows && !error; i++)
+        error = plot_field(page, csv, title, named, i);
+    return error;
+}
+
+/* The table FILE of FOLDER, by PLOT. */
+static struct error *plot_table(const struct page *page, const char *folder, const char *file,
+                                page_table *plot)
 {
     struct csv csv = {0};
     char *title = text_copy_part(file, strlen(file) - strlen("-000000.csv"));
     struct error *error =
         title ? page_read_table(folder, file, &csv) : out_of_memory_for("a report");
-    bool named = !strcmp(csv_head(&csv, 0), "material") || !strcmp(csv_head(&csv, 0), "body");
-    for (int i = 0; i < csv.columns && csv.rows && !error; i++)
-        error = plot_field(page, &csv, title, named, i);
+    if (!error)
+        error = plot(page, &csv, title);
     csv_free(&csv);
     free(title);
     return error;
@@ -107,25 +117,33 @@ static bool same_profile(const char *file, const char *next)
     return length == strlen(next) && length > tail && !strncmp(file, next, length - tail + 1);
 }
 
-struct error *page_profiles(const struct page *page)
+struct error *page_last_tables(const struct page *page, const char *name, const char *head,
+                               const char *foot, page_table *plot)
 {
     char **names = NULL;
     int count = 0;
-    char *folder = path_join(page->folder, "profiles");
+    char *folder = path_join(page->folder, name);
     struct error *error =
         folder ? folder_names(folder, ".csv", &names, &count) : out_of_memory_for("a report");
     if (!error && count)
-        fputs("<section id=\"profiles\"><h2>Profiles at the end</h2>\n<div class=\"plots\">\n",
-              page->file);
+        fputs(head, page->file);
     for (int i = 0; i < count && !error; i++)
         if (strlen(names[i]) > strlen("-000000.csv") &&
             (i + 1 == count || !same_profile(names[i], names[i + 1])))
-            error = plot_profile(page, folder, names[i]);
+            error = plot_table(page, folder, names[i], plot);
     if (!error && count)
-        fputs("</div>\n<p class=\"note\">Lines: means over bins. Bands: one standard deviation to "
-              "either side.</p></section>\n",
-              page->file);
+        fputs(foot, page->file);
     names_free(names, count);
     free(folder);
     return error;
+}
+
+struct error *page_profiles(const struct page *page)
+{
+    return page_last_tables(
+        page, "profiles",
+        "<section id=\"profiles\"><h2>Profiles at the end</h2>\n<div class=\"plots\">\n",
+        "</div>\n<p class=\"note\">Lines: means over bins. Bands: one standard deviation to either "
+        "side.</p></section>\n",
+        plot_profile);
 }

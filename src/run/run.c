@@ -258,6 +258,8 @@ static struct error *look_ahead(struct run *run)
     if (kept)
         kept->kept = true;
     error = error_join(error, profiles_prepare(&run->simulation, &run->population, &run->profiles));
+    error =
+        error_join(error, histograms_prepare(&run->simulation, &run->population, &run->histograms));
     error = error_join(
         error, checks_prepare(&run->simulation, &run->population, &run->probes, &run->checks));
     if (run->checks)
@@ -368,6 +370,7 @@ static void destroy(struct run *run)
     findings_free(&run->judgement.findings);
     probes_free(&run->probes);
     profiles_free(&run->profiles);
+    histograms_free(&run->histograms);
     if (run->solver && run->method)
         run->method->destroy(run->solver);
     free(run->solver);

@@ -4,6 +4,7 @@
 
 #include "base/results.h"
 #include "case/changes.h"
+#include "measure/histograms.h"
 #include "measure/probes.h"
 #include "measure/profiles.h"
 #include "output/checkpoint.h"
@@ -32,6 +33,7 @@ struct run {
     struct probes probes;
     const char *keeps; /* a probe whose rows stay in memory; NULL: none */
     struct profiles profiles;
+    struct histograms histograms;
     struct checks *checks;
     struct judgement judgement; /* of the case, by its solver */
     struct warnings *warnings;

@@ -173,6 +173,9 @@ static void name_files(const struct run *run, struct names *names)
     for (int i = 0; i < input->profiles.count; i++)
         add_name(names,
                  text_format("profiles/%s-" RESULTS_NUMBER ".csv", input->profiles.names[i]));
+    for (int i = 0; i < input->output.histograms.count; i++)
+        add_name(names, text_format("histograms/%s-" RESULTS_NUMBER ".csv",
+                                    input->output.histograms.names[i]));
 }
 
 static struct error *begin_results(struct run *run)
@@ -364,6 +367,8 @@ static struct error *write_population(struct run *run, const struct population *
 {
     TRY(profiles_write(&run->profiles, &run->simulation, &run->population, run->options->output,
                        number));
+    TRY(histograms_write(&run->histograms, &run->simulation, &run->population, run->options->output,
+                         number));
     const bool kept = run->input->output.snapshots;
     if (!kept && !album_name_of(run->input, 0))
         return NULL;

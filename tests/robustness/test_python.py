@@ -57,6 +57,7 @@ def examples():
 def runs():
     case = bolide.Case.of(CASE, "case.yaml")
     expect("forecast" in case.check() or "steps" in case.check(), "check prints no forecast")
+    case.set("output.fragments", True)
     run = case.run("plain", threads=1, overwrite=True)  # its check fails, which raises nothing
     expect(run.status == "finished" and not run.checks["least"].passed, "a failed check")
     expect(run.checks["least"].unit == "Pa" and run.checks["least"].low == 1e12, "its limit")

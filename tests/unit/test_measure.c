@@ -143,6 +143,7 @@ static void limit_dimension(struct bench *b, struct dimension dimension)
 
 static const struct dimension pascal = {-1, 1, -2, 0}, metre = {1, 0, 0, 0}, one = {0, 0, 0, 0};
 static struct measure_field pressure = {(char[]){"pressure"}};
+static struct measure_weighted counted = {{(char[]){"pressure"}}, WEIGHT_NUMBER};
 
 static void mean_counts_every_particle_of_the_window_once(void **state)
 {
@@ -150,14 +151,35 @@ static void mean_counts_every_particle_of_the_window_once(void **state)
     limit_dimension(b, pascal);
     for (int i = 0; i < ALL; i++)
         particles_of(&b->simulation)->pressure[i] = i;
-    assert_float_equal(value_of(b, "mean", &pressure), (ALL - 1) / 2.0, 1e-13);
+    assert_float_equal(value_of(b, "mean", &counted), (ALL - 1) / 2.0, 1e-13);
     b->check.of = b->names[1];
-    assert_float_equal(value_of(b, "mean", &pressure), EACH + (EACH - 1) / 2.0, 1e-13);
+    assert_float_equal(value_of(b, "mean", &counted), EACH + (EACH - 1) / 2.0, 1e-13);
     b->check.of = NULL;
     b->check.between = (struct vector_value){2, {0.0, 0.1}};
-    assert_float_equal(value_of(b, "mean", &pressure), 1.5, 1e-14);
+    assert_float_equal(value_of(b, "mean", &counted), 1.5, 1e-14);
     b->check.between = (struct vector_value){2, {2.0, 3.0}};
-    assert_true(isnan(value_of(b, "mean", &pressure)));
+    assert_true(isnan(value_of(b, "mean", &counted)));
+}
+
+static void a_mean_and_a_quantile_may_count_by_mass_or_volume(void **state)
+{
+    struct bench *b = *state;
+    struct particles *p = particles_of(&b->simulation);
+    limit_dimension(b, pascal);
+    for (int i = 0; i < ALL; i++) {
+        p->pressure[i] = i;
+        p->mass[i] = i < ALL / 2 ? 1.0 : 3.0;
+        p->density[i] = i < ALL / 2 ? 1.0 : 1.5;
+    }
+    const double low = (ALL / 2 - 1) / 2.0, high = low + ALL / 2;
+    struct measure_weighted mean = {{(char[]){"pressure"}}, WEIGHT_MASS};
+    assert_float_equal(value_of(b, "mean", &mean), (low + 3.0 * high) / 4.0, 1e-13);
+    mean.weight = WEIGHT_VOLUME;
+    assert_float_equal(value_of(b, "mean", &mean), (low + 2.0 * high) / 3.0, 1e-13);
+    struct measure_quantile quantile = {pressure, 0.25, WEIGHT_MASS};
+    assert_float_equal(value_of(b, "quantile", &quantile), ALL / 2 - 1, 0.0);
+    mean.weight = WEIGHT_NUMBER;
+    assert_float_equal(value_of(b, "spread", &mean), sqrt((ALL * ALL - 1) / 12.0), 1e-13);
 }
 
 static void extremes_are_found_and_nonsense_is_not_hidden(void **state)
@@ -183,7 +205,7 @@ static void a_quantile_is_the_value_that_a_fraction_does_not_exceed(void **state
     limit_dimension(b, pascal);
     for (int i = 0; i < ALL; i++)
         p[i] = (i * 7) % ALL - 20.0; /* all whole numbers from -20 to 19 */
-    struct measure_quantile quantile = {pressure, 0.975};
+    struct measure_quantile quantile = {pressure, 0.975, WEIGHT_NUMBER};
     assert_float_equal(value_of(b, "quantile", &quantile), 18.0, 0.0);
     quantile.fraction = 1.0;
     assert_float_equal(value_of(b, "quantile", &quantile), 19.0, 0.0);
@@ -272,9 +294,9 @@ static void about_a_point_places_are_distances(void **state)
     for (int i = 0; i < ALL; i++) /* 10 within 0.25 of the middle */
         particles_of(&b->simulation)->pressure[i] = i >= 10 && i < 30 ? 10.0 : 0.0;
     b->check.between = (struct vector_value){2, {0.0, 0.2}};
-    assert_float_equal(value_of(b, "mean", &pressure), 10.0, 0.0);
+    assert_float_equal(value_of(b, "mean", &counted), 10.0, 0.0);
     b->check.between = (struct vector_value){2, {0.3, 1.0}};
-    assert_float_equal(value_of(b, "mean", &pressure), 0.0, 0.0);
+    assert_float_equal(value_of(b, "mean", &counted), 0.0, 0.0);
     b->check.between.count = 0;
     limit_dimension(b, metre);
     assert_float_equal(value_of(b, "front", &front), (9.5 + 0.75) / ALL, 1e-14);
@@ -342,7 +364,7 @@ static void within_is_a_fraction_of_what_is_wanted_or_a_quantity(void **state)
 {
     struct bench *b = *state;
     struct check_result result = {0};
-    choose(b, "mean", &pressure);
+    choose(b, "mean", &counted);
     for (int i = 0; i < ALL; i++)
         particles_of(&b->simulation)->pressure[i] = -103.0;
     b->check.at_most.value = NAN;
@@ -364,7 +386,7 @@ static void a_regression_bound_starts_from_what_was_recorded(void **state)
 {
     struct bench *b = *state;
     struct check_result result = {0};
-    choose(b, "mean", &pressure);
+    choose(b, "mean", &counted);
     for (int i = 0; i < ALL; i++)
         particles_of(&b->simulation)->pressure[i] = 95.0;
     b->check.at_most.value = NAN;
@@ -426,12 +448,13 @@ static void what_is_allowed_reads_as_it_is(void **state)
 static void mistakes_in_checks_are_told_before_the_run(void **state)
 {
     struct bench *b = *state;
-    struct measure_field wrong = {(char[]){"presure"}}, vector = {(char[]){"velocity"}};
+    struct measure_weighted wrong = {{(char[]){"presure"}}, WEIGHT_NUMBER},
+                            vector = {{(char[]){"velocity"}}, WEIGHT_NUMBER};
     choose(b, "mean", &wrong);
     expect_mistake(b, "no field \"presure\" (did you mean \"pressure\"?)");
     choose(b, "mean", &vector);
     expect_mistake(b, "choose its component: velocity.x");
-    choose(b, "mean", &pressure);
+    choose(b, "mean", &counted);
     b->check.at_most = (struct quantity){1.0, metre};
     expect_mistake(b, "`at_most` is in m");
     choose(b, "l1", &pressure);
@@ -445,6 +468,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(mean_counts_every_particle_of_the_window_once),
+        TEST(a_mean_and_a_quantile_may_count_by_mass_or_volume),
         TEST(extremes_are_found_and_nonsense_is_not_hidden),
         TEST(a_quantile_is_the_value_that_a_fraction_does_not_exceed),
         TEST(front_lies_between_the_particles_that_straddle_the_value),
