@@ -79,13 +79,8 @@ struct error *run_find_changes(struct run *run)
             case_compare(before, run->case_text, case_table, run->input->catalogue, &run->changes);
         error = error_context(error, "%s: its case is damaged", path);
     }
-    for (int i = 0; !error && i < run->changes.count; i++) {
-        struct error *refused = refuse(run, &run->changes.item[i]);
-        for (i++; refused && i < run->changes.count; i++)
-            refused = error_join(refused, refuse(run, &run->changes.item[i]));
-        i -= !refused;
-        error = refused;
-    }
+    for (int i = 0; i < run->changes.count; i++)
+        error = error_join(error, refuse(run, &run->changes.item[i]));
     free(before);
     free(path);
     return error;
