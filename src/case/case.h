@@ -48,6 +48,8 @@ struct body_input {
     bool frozen;               /* keeps all of its state, and moves with its velocity */
     double stop;               /* s, from then on it stands still; NAN: never */
     double remove_at;          /* s, when it is taken away; NAN: never */
+    double damping;            /* 1/s, of its velocity, from damped_from on; 0: none */
+    double damped_from;        /* s */
     int material_index;        /* filled by case_read */
     bool varies;        /* filled by case_read: its state at the start is one of the position */
     struct point start; /* filled by case_read, unless it varies: the state at the start */

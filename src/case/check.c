@@ -276,6 +276,9 @@ static void check_body(struct checking *checking, int index)
     if (body->frozen && (body->driven || !isnan(body->stop)))
         case_wrong(checking, "frozen", "a frozen body keeps its velocity: leave `%s` out",
                    body->driven ? "driven" : "stop");
+    if (body->damping > 0.0 && (body->driven || body->frozen))
+        case_wrong(checking, "damping", "a %s body keeps its velocity: leave `%s` out",
+                   body->driven ? "driven" : "frozen", body->driven ? "driven" : "frozen");
     check_replaces(checking, body, index);
 }
 

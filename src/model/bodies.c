@@ -43,6 +43,8 @@ double next_event(const struct simulation *simulation)
     for (int i = 0; i < input->bodies.count; i++) {
         event = earlier(simulation, event, case_body(input, i)->stop);
         event = earlier(simulation, event, case_body(input, i)->remove_at);
+        if (case_body(input, i)->damping > 0.0)
+            event = earlier(simulation, event, case_body(input, i)->damped_from);
     }
     for (int i = 0; i < input->loads.count; i++) {
         event = earlier(simulation, event, case_load(input, i)->after);

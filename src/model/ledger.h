@@ -11,7 +11,7 @@
 
 /* Walls that push; the axis of symmetry, whose hoop stress does; what holds bodies (`driven`,
  * `stop`); gravity; what pushes on surfaces; faces that particles leave through; bodies that are
- * taken away; products that burn in air; what waits between the parts of a coupling. */
+ * taken away; what slows bodies (`damping`); products that burn in air; what waits between the parts of a coupling. */
 enum ledger_cause {
     LEDGER_WALLS,
     LEDGER_AXIS,
@@ -20,6 +20,7 @@ enum ledger_cause {
     LEDGER_LOADS,
     LEDGER_OUTFLOWS,
     LEDGER_REMOVED,
+    LEDGER_DAMPING,
     LEDGER_AFTERBURN,
     LEDGER_EXCHANGE,
     LEDGER_CAUSES

@@ -135,18 +135,22 @@ static void strong_contacts(struct findings *findings, double largest)
     free(summary);
 }
 
-/* Bodies that are to be taken away by a solver that cannot. */
+/* Bodies that are to be taken away or slowed by a solver that cannot. */
 static void judge_removals(struct findings *findings)
 {
     const struct simulation_case *input = findings->input;
     const struct solver_class *method = input->solver.choice->thing;
     for (int i = 0; i < input->bodies.count && !method->removes; i++) {
-        char *name = isnan(case_body(input, i)->remove_at)
-                         ? NULL
-                         : text_format("%s.remove_at", input->bodies.names[i]);
+        const struct body_input *body = case_body(input, i);
+        const bool removed = !isnan(body->remove_at);
+        if (!removed && !(body->damping > 0.0))
+            continue;
+        char *name =
+            text_format("%s.%s", input->bodies.names[i], removed ? "remove_at" : "damping");
         if (name)
             finding_add(findings, FINDING_WRONG, "bodies", name,
-                        "only the solvers sph and mpm take bodies away");
+                        "only the solvers sph and mpm %s bodies",
+                        removed ? "take away" : "slow");
         free(name);
     }
 }

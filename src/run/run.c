@@ -102,11 +102,13 @@ static struct error *watch_checks(struct run *run)
 /* Takes a step, and says which events happened in it. */
 static struct error *take_step(struct run *run)
 {
-    const struct simulation *s = &run->simulation;
+    struct simulation *s = &run->simulation;
+    const double before = s->time;
     bool known[EVENTS_MAX];
     for (int k = 0; k < s->events; k++)
         known[k] = !isnan(s->event[k].time);
     TRY(run_take_step(run));
+    damp_bodies(s, before);
     for (int k = 0; k < s->events; k++)
         if (!known[k] && !isnan(s->event[k].time))
             run_say(run, "%s begins at t = %.6g s", s->event[k].name, s->event[k].time);

@@ -66,6 +66,35 @@ bool remove_bodies(struct simulation *simulation, double since)
     return any;
 }
 
+static bool body_is_damped(const struct simulation *simulation, int body)
+{
+    const struct body_input *input = case_body(simulation->problem->input, body);
+    return input->damping > 0.0 && simulation->time > input->damped_from &&
+           !body_stands(simulation, body);
+}
+
+static void damp_particle(const struct simulation *simulation, const struct particles *p,
+                          const void *of, int32_t i, struct ledger *ledger)
+{
+    const struct body_input *body = case_body(simulation->problem->input, p->body[i]);
+    const double *since = of, begin = maximum(*since, body->damped_from);
+    const double kept = exp(-body->damping * (simulation->time - begin));
+    const struct vec3 velocity = vector_at(p->velocity[i]);
+    ledger_book(ledger, LEDGER_DAMPING, 0.0, vec3_scale((kept - 1.0) * p->mass[i], velocity),
+                vector_at(p->position[i]),
+                0.5 * (kept * kept - 1.0) * p->mass[i] * vec3_dot(velocity, velocity));
+    for (int axis = 0; axis < 3; axis++)
+        p->velocity[i][axis] *= kept;
+}
+
+void damp_bodies(struct simulation *simulation, double since)
+{
+    for (int k = 0; k < simulation->populations; k++)
+        if (simulation->population[k].type == &particle_population)
+            act_on_particles(simulation, particles_in(&simulation->population[k]), body_is_damped,
+                             damp_particle, &since);
+}
+
 /* A body, and its new velocity after a step; NAN: the component stays. */
 struct drive {
     int body;

@@ -23,6 +23,9 @@ void stop_bodies(struct simulation *simulation, const struct particles *particle
  * with them; simulation_commit takes them out. True where there are such bodies. */
 bool remove_bodies(struct simulation *simulation, double since);
 
+/* Slows the bodies with `damping` as a step from SINCE to now does, and books what they lose. */
+void damp_bodies(struct simulation *simulation, double since);
+
 /* Gives driven bodies whose velocity is one of the time that at the end of a step of DT, and books
  * what that takes. They have moved with the velocity at its begin, and come to where the mean of
  * both takes them. ERROR_STATE: it is not finite. */
