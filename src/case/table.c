@@ -55,10 +55,11 @@ static const struct parameter body_table[] = {
               "time at which the body is taken away, with its mass, momentum and energy, which the "
               "ledger books; default: never (solvers sph, mpm)",
               .unit = "s", .below = INFINITY, .closed = true, .change = CHANGE_FROM_HERE),
-    PARAMETER(NUMBER, struct body_input, damping, "0 1/s",
-              "rate at which the body loses its velocity, v' = -damping v, so that it stops ringing "
-              "and shows its permanent shape; the ledger books what it loses (solvers sph, mpm)",
-              .unit = "1/s", .below = INFINITY, .closed = true, .change = CHANGE_FROM_HERE),
+    PARAMETER(
+        NUMBER, struct body_input, damping, "0 1/s",
+        "rate at which the body loses its velocity, v' = -damping v, so that it stops ringing "
+        "and shows its permanent shape; the ledger books what it loses (solvers sph, mpm)",
+        .unit = "1/s", .below = INFINITY, .closed = true, .change = CHANGE_FROM_HERE),
     PARAMETER(NUMBER, struct body_input, damped_from, "0 s", "the time at which `damping` begins",
               .unit = "s", .below = INFINITY, .closed = true, .change = CHANGE_FROM_HERE),
     PARAMETER_END,

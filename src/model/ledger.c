@@ -9,9 +9,10 @@
 #include "parallel/exact_block.h"
 
 static const char *const cause_names[LEDGER_CAUSES] = {
-    [LEDGER_WALLS] = "walls",     [LEDGER_AXIS] = "axis",           [LEDGER_PISTONS] = "pistons",
-    [LEDGER_GRAVITY] = "gravity", [LEDGER_LOADS] = "loads",         [LEDGER_OUTFLOWS] = "outflows",
-    [LEDGER_REMOVED] = "removed", [LEDGER_DAMPING] = "damping", [LEDGER_AFTERBURN] = "afterburn", [LEDGER_EXCHANGE] = "exchange"};
+    [LEDGER_WALLS] = "walls",      [LEDGER_AXIS] = "axis",       [LEDGER_PISTONS] = "pistons",
+    [LEDGER_GRAVITY] = "gravity",  [LEDGER_LOADS] = "loads",     [LEDGER_OUTFLOWS] = "outflows",
+    [LEDGER_REMOVED] = "removed",  [LEDGER_DAMPING] = "damping", [LEDGER_AFTERBURN] = "afterburn",
+    [LEDGER_EXCHANGE] = "exchange"};
 
 /* Behind the entries of the ledger, what else population_totals sums. */
 enum { TOTAL_KINETIC = LEDGER_ENTRIES, TOTAL_INTERNAL, TOTAL_MOMENTUM_SCALE, TOTALS };

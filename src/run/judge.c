@@ -149,8 +149,7 @@ static void judge_removals(struct findings *findings)
             text_format("%s.%s", input->bodies.names[i], removed ? "remove_at" : "damping");
         if (name)
             finding_add(findings, FINDING_WRONG, "bodies", name,
-                        "only the solvers sph and mpm %s bodies",
-                        removed ? "take away" : "slow");
+                        "only the solvers sph and mpm %s bodies", removed ? "take away" : "slow");
         free(name);
     }
 }
