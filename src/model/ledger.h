@@ -11,7 +11,8 @@
 
 /* Walls that push; the axis of symmetry, whose hoop stress does; what holds bodies (`driven`,
  * `stop`); gravity; what pushes on surfaces; faces that particles leave through; bodies that are
- * taken away; what slows bodies (`damping`); products that burn in air; what waits between the parts of a coupling. */
+ * taken away; what slows bodies (`damping`); products that burn in air; what waits between the
+ * parts of a coupling. */
 enum ledger_cause {
     LEDGER_WALLS,
     LEDGER_AXIS,
