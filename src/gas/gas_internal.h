@@ -215,6 +215,13 @@ BOLIDE_INLINE double gas_mean_of_parts(double *part, int parts)
     return part[0] / parts;
 }
 
+/* The limited difference over a cell divided into parts, between differences to its neighbours: the
+ * lesser of them. */
+BOLIDE_INLINE double gas_lesser(double past, double next)
+{
+    return past * next <= 0.0 ? 0.0 : fabs(past) < fabs(next) ? past : next;
+}
+
 /* Books what left STRIP of a sweep along AXIS in DT. */
 void gas_book(const struct gas *gas, const struct simulation *simulation,
               const struct gas_strip *strip, const struct gas_through *through, int axis, double dt,

@@ -225,8 +225,6 @@ static void merge_cells(const struct transfer *t, const struct cell_block *old, 
     t->new[GAS_SHOCK][to] = shock;
 }
 
-static double lesser(double a, double b) { return a * b <= 0.0 ? 0.0 : fabs(a) < fabs(b) ? a : b; }
-
 static double heat_of(const double u[GAS_NUMBERS])
 {
     return u[GAS_ENERGY] - 0.5 *
@@ -247,8 +245,8 @@ static void divide_cell(const struct transfer *t, const struct cell_block *old, 
         const int32_t stride = cell_stride(old, axis);
         const int64_t c = at[axis] - old->corner[axis];
         for (int n = 0; n < GAS_NUMBERS && c > 0 && c < old->count[axis] - 1; n++)
-            slope[axis][n] =
-                lesser(t->old[n][i] - t->old[n][i - stride], t->old[n][i + stride] - t->old[n][i]);
+            slope[axis][n] = gas_lesser(t->old[n][i] - t->old[n][i - stride],
+                                        t->old[n][i + stride] - t->old[n][i]);
     }
     for (int n = 0; n < GAS_NUMBERS; n++)
         mean[n] = t->old[n][i];
@@ -279,7 +277,7 @@ static void fill_block(const struct transfer *t, const struct cell_block *new)
     int step[3];
     const struct cell_block *old = cell_block_cover(t->from, new->level, new->corner);
     for (int axis = 0; axis < 3; axis++)
-        step[axis] = old->level > new->level &&axis < dimension ? 2 : 1;
+        step[axis] = axis < dimension && old->level > new->level ? 2 : 1;
     for (at[2] = new->corner[2]; at[2] < new->corner[2] + new->count[2]; at[2] += step[2])
         for (at[1] = new->corner[1]; at[1] < new->corner[1] + new->count[1]; at[1] += step[1])
             for (at[0] = new->corner[0]; at[0] < new->corner[0] + new->count[0]; at[0] += step[0]) {

@@ -28,8 +28,10 @@ struct crosswise {
 
 static struct crosswise crosswise_of(int dimension, int axis)
 {
-    const int first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2;
-    return (struct crosswise){first, second, first < dimension ? 2 : 1, second < dimension ? 2 : 1};
+    const struct gas_axes axes = gas_axes_of(axis);
+    const int *across = axes.across;
+    return (struct crosswise){across[0], across[1], across[0] < dimension ? 2 : 1,
+                              across[1] < dimension ? 2 : 1};
 }
 
 /* Cell AT in cells twice as wide or, with UP -1, half as wide: then the first of them. */
@@ -118,8 +120,6 @@ static void make_conserved(double of[GAS_NUMBERS])
     of[GAS_ENERGY] += kinetic_of(of + GAS_MOMENTUM, of[GAS_DENSITY]);
 }
 
-static double lesser(double a, double b) { return a * b <= 0.0 ? 0.0 : fabs(a) < fabs(b) ? a : b; }
-
 /* How much the numbers of cell AT of LEVEL, which are MIDDLE, change within it along an axis. */
 static void find_slope(const struct gas *gas, int level, const int64_t at[3], int axis,
                        const struct cell_block *const likely[2], const struct inner *middle,
@@ -136,7 +136,8 @@ static void find_slope(const struct gas *gas, int level, const int64_t at[3], in
     }
     for (int n = 0; n < GAS_NUMBERS; n++)
         slope[n] =
-            known ? lesser(middle->of[n] - beside[0].of[n], beside[1].of[n] - middle->of[n]) : 0.0;
+            known ? gas_lesser(middle->of[n] - beside[0].of[n], beside[1].of[n] - middle->of[n])
+                  : 0.0;
 }
 
 static void put(const struct gas *gas, int axis, const struct cell_seam *seam, int row,

@@ -2,7 +2,6 @@
 #include "grid/levels.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/memory.h"
 #include "parallel/block.h"
@@ -200,8 +199,6 @@ static bool refine(const struct cell_blocks *cells, const struct block_table *ma
     bool *split = memory_allocate((size_t)blocks->count + 1);
     bool room = split && block_table_clear(&table, blocks->count + 1);
     const struct cover cover = {cells, blocks->block, &table};
-    if (split)
-        memset(split, 0, (size_t)blocks->count + 1);
     for (int32_t b = 0; b < blocks->count && room; b++)
         block_table_add(&table, blocks->block[b].key);
     for (int32_t b = 0; b < blocks->count && room; b++) {

@@ -136,7 +136,7 @@ static void strong_contacts(struct findings *findings, double largest)
 }
 
 /* Bodies that are to be taken away or slowed by a solver that cannot. */
-static void judge_removals(struct findings *findings)
+static void judge_what_happens(struct findings *findings)
 {
     const struct simulation_case *input = findings->input;
     const struct solver_class *method = input->solver.choice->thing;
@@ -167,7 +167,7 @@ struct judgement judge_solver(const struct simulation *simulation)
     rod_cells(findings);
     judge_explosives(findings);
     judge_limits(findings);
-    judge_removals(findings);
+    judge_what_happens(findings);
     ignitions_judge(findings);
     loads_judge(findings);
     return judgement;

@@ -7,7 +7,7 @@ fail() {
     echo "FAILED: $*"
     status=1
 }
-hash_of() { sed -n 's/^run,"","hash","\(.*\)",text$/\1/p' "$1/summary.csv"; }
+. "$BOLIDE_SOURCE_DIR/tests/robustness/same.sh"
 
 # extends NAME CASE EARLIER LATER OPTIONS...: a run to EARLIER that is extended to LATER, by other threads.
 extends() {
