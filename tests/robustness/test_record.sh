@@ -159,4 +159,15 @@ sed -i '/^short/d' tube/results.csv
 figures && fail "a form that was not recorded passes"
 says log "README.md:3: the record of"
 says log "bolide verify --record --short"
+
+# A mark that names its YAML, which lies beside the page.
+printf '<!-- figures: all -->\n<!-- /figures -->\n' >page/README.md
+figures && fail "a name that nothing has passes"
+says log "README.md:1: no all lies beside the page"
+printf 'all: {runs: [../tube]}\n' >page/figures.yaml
+figures || fail "cannot fill what is named: $(cat log)"
+says page/README.md "| check | allowed | measured |"
+printf 'more: {runs: [../tube]}\n' >>page/figures.yaml
+figures --check && fail "a name that no mark has passes"
+says log "the page does not show more"
 exit $status
