@@ -5,7 +5,6 @@
                                from its first key to its last
     <!-- output -->            before a block of commands (`$ ...`) and what they print
     <!-- output: {lines: [check, report]} -->  only lines that match, with `...` for the others
-    <!-- /output -->           after the block
 
 The record of docs/NAME.md is docs/outputs/NAME.txt: the files by their hash, each command and all
 that it printed. Wall-clock times and rates are …, the table of times after a run is `...`, and
@@ -23,7 +22,7 @@ import yaml
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PART = re.compile(
     r"<!-- file: (?P<name>\S+?)(?:, from (?P<base>\S+))? -->\n```\w*\n(?P<text>.*?)^```$|"
-    r"<!-- output(?:: (?P<mark>.*?))? -->\n```text\n(?P<shown>.*?)^```\n<!-- /output -->",
+    r"<!-- output(?:: (?P<mark>.*?))? -->\n```text\n(?P<shown>.*?)^```$",
     re.S | re.M)
 COMMAND = re.compile(r"^\$ (?:.*\\\n)*.*\n", re.M)
 TIMES = re.compile(r"(?:^  \w[\w ]*? +[\d.]+ s +[\d.]+ %\n)+", re.M)
@@ -132,7 +131,7 @@ def filled(text, page):
     """TEXT of PAGE with its outputs as the record has them, and the number of outputs."""
     matches = [match for match, name, _ in steps_of(text) if not name]
     if text.count("<!-- output") != len(matches):
-        raise Wrong("a mark of an output without its block and its end, `<!-- /output -->`")
+        raise Wrong("a mark of an output without its block")
     if not matches:
         return text, 0
     path = record_of(page)

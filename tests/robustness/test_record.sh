@@ -144,7 +144,7 @@ record && record --compare || fail "what the script has recorded differs: $(cat 
 
 # Pages.
 figures() { /usr/bin/python3 "$BOLIDE_SOURCE_DIR/scripts/figures" "$@" page/README.md >log 2>&1; }
-printf 'Text.\n\n<!-- figures: {runs: [../tube, ../tube short, ../tube --set resolution=tube/40]} -->\n<!-- /figures -->\n\nMore.\n' \
+printf 'Text.\n\n<!-- figures: {runs: [../tube, ../tube short, ../tube --set resolution=tube/40]} -->\n\nMore.\n' \
     >page/README.md
 figures --check && fail "an empty table passes"
 figures || fail "cannot fill: $(cat log)"
@@ -161,7 +161,7 @@ says log "README.md:3: the record of"
 says log "bolide verify --record --short"
 
 # A mark that names its YAML, which lies beside the page.
-printf '<!-- figures: all -->\n<!-- /figures -->\n' >page/README.md
+printf '<!-- figures: all -->\n' >page/README.md
 figures && fail "a name that nothing has passes"
 says log "README.md:1: no all lies beside the page"
 printf 'all: {runs: [../tube]}\n' >page/figures.yaml
