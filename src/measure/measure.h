@@ -111,6 +111,8 @@ struct measure_recorded {
     char *when;           /* another column; NULL: any time */
     struct quantity reaches;
     bool absolute;
+    char *less;            /* another probe; NULL: none */
+    double less_mean;      /* s; NAN: nothing is subtracted */
     struct quantity noise; /* NAN: a hundredth of the range */
 };
 enum front_end { FRONT_FROM_LOW, FRONT_FROM_HIGH };

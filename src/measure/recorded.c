@@ -1,18 +1,20 @@
 /* recorded: a number from what a probe has recorded. Between rows a column is linear, so that a
  * window of time begins and ends where it says. `slope` is the line of least squares, `speed` that
- * without its sign; `maxima` and `period` count the peaks from which the curve falls by more than
+ * without its sign; `maxima` and `period` count the peaks from which it falls by more than
  * `noise` on either side. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "measure/probes.h"
+#include "measure/trace.h"
 
 enum take {
     TAKE_LAST,
     TAKE_MINIMUM,
     TAKE_MAXIMUM,
     TAKE_MEAN,
+    TAKE_RMS,
     TAKE_RANGE,
     TAKE_TIME_OF_MINIMUM,
     TAKE_TIME_OF_MAXIMUM,
@@ -21,19 +23,21 @@ enum take {
     TAKE_MAXIMA,
     TAKE_PERIOD
 };
-static const char *const take_names[] = {"last",  "minimum",         "maximum",         "mean",
-                                         "range", "time_of_minimum", "time_of_maximum", "slope",
-                                         "speed", "maxima",          "period",          NULL};
+static const char *const take_names[] = {
+    "last",  "minimum", "maximum", "mean",   "rms", "range", "time_of_minimum", "time_of_maximum",
+    "slope", "speed",   "maxima",  "period", NULL};
 
 const struct parameter measure_recorded_table[] = {
     PARAMETER(TEXT, struct measure_recorded, probe, REQUIRED, "name of the probe"),
     PARAMETER(TEXT, struct measure_recorded, column, REQUIRED,
               "a column of its table, without the unit: pressure, velocity.x, position"),
-    PARAMETER(CHOICE, struct measure_recorded, take, "last",
-              "last, smallest, largest or mean value (over time); range: largest less smallest; "
-              "time of the minimum or maximum; slope: by least squares; speed: its absolute value; "
-              "maxima: their number; period: the mean time between them",
-              .names = take_names),
+    PARAMETER(
+        CHOICE, struct measure_recorded, take, "last",
+        "last, smallest, largest or mean value (over time); rms: the root of the mean square; "
+        "range: largest less smallest; "
+        "time of the minimum or maximum; slope: by least squares; speed: its absolute value; "
+        "maxima: their number; period: the mean time between them",
+        .names = take_names),
     PARAMETER(NUMBER, struct measure_recorded, after, OPTIONAL, "start of the time window",
               .unit = "s"),
     PARAMETER(NUMBER, struct measure_recorded, before, OPTIONAL, "end of the time window",
@@ -43,7 +47,13 @@ const struct parameter measure_recorded_table[] = {
               "`reaches`; with `take: last`"),
     PARAMETER(QUANTITY, struct measure_recorded, reaches, OPTIONAL,
               "the value that the column `when` rises to"),
-    PARAMETER(FLAG, struct measure_recorded, absolute, "no", "whether to take absolute values"),
+    PARAMETER(FLAG, struct measure_recorded, absolute, "no",
+              "whether to take absolute values, of what is left after `less` and `less_mean`"),
+    PARAMETER(TEXT, struct measure_recorded, less, OPTIONAL,
+              "another probe, whose `column` at the same times is subtracted"),
+    PARAMETER(NUMBER, struct measure_recorded, less_mean, OPTIONAL,
+              "subtracts the mean over so much time around each moment", .unit = "s",
+              .below = INFINITY),
     PARAMETER(QUANTITY, struct measure_recorded, noise, OPTIONAL,
               "how far the curve must fall on both sides of a maximum; default: a hundredth of its "
               "range"),
@@ -95,6 +105,8 @@ static struct error *check_keys(const struct measurement *measurement, const cha
                              measurement->simulation->problem->input->run.until);
     if (recorded->after >= recorded->before)
         return measure_error(measurement, "`after` must be earlier than `before`");
+    if (recorded->when && !isnan(recorded->less_mean))
+        return measure_error(measurement, "`less_mean` has no meaning with `when`");
     if (isnan(recorded->noise.value))
         return NULL;
     if (recorded->take != TAKE_MAXIMA && recorded->take != TAKE_PERIOD)
@@ -130,6 +142,25 @@ static struct error *check_when(const struct measurement *measurement)
     return NULL;
 }
 
+/* What is wrong with `less`; else its probe is kept, too. */
+static struct error *check_less(const struct measurement *measurement, const char *unit)
+{
+    const struct measure_recorded *recorded = measurement->check->measure.value;
+    struct probe *probe;
+    int column;
+    if (!recorded->less)
+        return NULL;
+    TRY(measure_find_record(measurement, recorded->less, recorded->column, &probe, &column));
+    if (column == probe->columns)
+        return NULL;
+    probe->kept = true;
+    if (strcmp(probe->column[column].unit, unit))
+        return measure_error(measurement, "%s of \"%s\" is in %s, that of \"%s\" in %s",
+                             recorded->column, recorded->probe, unit, recorded->less,
+                             probe->column[column].unit);
+    return NULL;
+}
+
 static struct error *unit(const struct measurement *measurement, const char **unit)
 {
     const struct measure_recorded *recorded = measurement->check->measure.value;
@@ -142,11 +173,13 @@ static struct error *unit(const struct measurement *measurement, const char **un
     *unit = "";
     probe->kept = true;
     TRY(check_when(measurement));
+    TRY(check_less(measurement, probe->column[column].unit));
     switch ((enum take)recorded->take) {
     case TAKE_LAST:
     case TAKE_MINIMUM:
     case TAKE_MAXIMUM:
     case TAKE_MEAN:
+    case TAKE_RMS:
     case TAKE_RANGE:
         *unit = probe->column[column].unit;
         break;
@@ -165,18 +198,6 @@ static struct error *unit(const struct measurement *measurement, const char **un
     return check_keys(measurement, probe->column[column].unit);
 }
 
-/* A column over time. */
-struct curve {
-    int64_t count;
-    double *time, *value;
-};
-
-static void curve_add(struct curve *curve, double time, double value)
-{
-    curve->time[curve->count] = time;
-    curve->value[curve->count++] = value;
-}
-
 /* The next row of PROBE from ROW on with a number in COLUMN; the count of rows where there is
  * none. */
 static int64_t next_number(const struct probe *probe, int column, int64_t row)
@@ -188,7 +209,7 @@ static int64_t next_number(const struct probe *probe, int column, int64_t row)
 
 /* The rows of the window that have numbers, and where the window cuts between two, what is
  * there. */
-static void curve_fill(struct curve *curve, const struct probe *probe, int column,
+static void trace_fill(struct trace *trace, const struct probe *probe, int column,
                        const struct measure_recorded *recorded)
 {
     const double ends[2] = {recorded->after, recorded->before};
@@ -196,81 +217,16 @@ static void curve_fill(struct curve *curve, const struct probe *probe, int colum
     for (int64_t row = next_number(probe, column, 0); row < probe->rows;
          row = next_number(probe, column, row + 1)) {
         double time = probe->value[row * probe->columns];
-        double value = probe->value[row * probe->columns + column];
-        value = recorded->absolute ? fabs(value) : value;
+        const double value = probe->value[row * probe->columns + column];
         for (int i = 0; i < 2; i++)
             if (earlier < ends[i] && ends[i] < time)
-                curve_add(curve, ends[i],
+                trace_add(trace, ends[i],
                           before + (value - before) * (ends[i] - earlier) / (time - earlier));
         if (!(time < ends[0]) && !(time > ends[1]))
-            curve_add(curve, time, value);
+            trace_add(trace, time, value);
         earlier = time;
         before = value;
     }
-}
-
-/* The index of the first extreme of SIGN times the curve, which has one point at least. */
-static int64_t extreme(const struct curve *curve, double sign)
-{
-    int64_t found = 0;
-    for (int64_t i = 1; i < curve->count; i++)
-        if (sign * curve->value[i] > sign * curve->value[found])
-            found = i;
-    return found;
-}
-
-static double mean(const struct curve *curve)
-{
-    double area = 0.0, span = curve->time[curve->count - 1] - curve->time[0];
-    if (span == 0.0)
-        return curve->value[0];
-    for (int64_t i = 1; i < curve->count; i++)
-        area +=
-            0.5 * (curve->value[i] + curve->value[i - 1]) * (curve->time[i] - curve->time[i - 1]);
-    return area / span;
-}
-
-static double slope(const struct curve *curve)
-{
-    double time = 0.0, value = 0.0, both = 0.0, spread = 0.0;
-    for (int64_t i = 0; i < curve->count; i++) {
-        time += curve->time[i] / (double)curve->count;
-        value += curve->value[i] / (double)curve->count;
-    }
-    for (int64_t i = 0; i < curve->count; i++) {
-        both += (curve->time[i] - time) * (curve->value[i] - value);
-        spread += square(curve->time[i] - time);
-    }
-    return both / spread;
-}
-
-struct peaks {
-    int64_t count;
-    double first, last; /* times */
-};
-
-/* A peak is where the curve is highest between a rise and a fall of more than NOISE. */
-static struct peaks find_peaks(const struct curve *curve, double noise)
-{
-    struct peaks peaks = {0, NAN, NAN};
-    int64_t turn =
-        0; /* the extreme since the last turn: the highest when rising, else the lowest */
-    bool rising = false;
-    for (int64_t i = 1; i < curve->count; i++) {
-        double change = curve->value[i] - curve->value[turn];
-        if (rising ? change > 0.0 : change < 0.0)
-            turn = i;
-        else if (!rising && change > noise) {
-            rising = true;
-            turn = i;
-        } else if (rising && -change > noise) {
-            peaks.last = curve->time[turn];
-            peaks.first = peaks.count++ ? peaks.first : peaks.last;
-            rising = false;
-            turn = i;
-        }
-    }
-    return peaks;
 }
 
 /* The time in the window of RECORDED at which COLUMN of PROBE first rises to what it reaches; NAN
@@ -295,54 +251,95 @@ static double time_when(const struct probe *probe, int column,
     return NAN;
 }
 
-static bool is_finite(const struct curve *curve)
+static bool is_finite(const struct trace *trace)
 {
-    for (int64_t i = 0; i < curve->count; i++)
-        if (!isfinite(curve->value[i]))
+    for (int64_t i = 0; i < trace->count; i++)
+        if (!isfinite(trace->value[i]))
             return false;
     return true;
 }
 
 /* Why TAKE of CURVE, which has finite values, is not a number. */
-static enum nothing why_not(const struct curve *curve, int take)
+static enum nothing why_not(const struct trace *trace, int take)
 {
-    return !curve->count         ? NOTHING_NOT_RECORDED
+    return !trace->count         ? NOTHING_NOT_RECORDED
            : take == TAKE_PERIOD ? NOTHING_NO_PEAKS
-           : curve->count < 2    ? NOTHING_ONE_ROW
+           : trace->count < 2    ? NOTHING_ONE_ROW
                                  : NOTHING_SAID;
 }
 
-static double take(const struct curve *curve, const struct measure_recorded *recorded)
+static double take(const struct trace *trace, const struct measure_recorded *recorded)
 {
-    int64_t lowest = extreme(curve, -1.0), highest = extreme(curve, 1.0);
-    double range = curve->value[highest] - curve->value[lowest];
+    int64_t lowest = trace_extreme(trace, -1.0), highest = trace_extreme(trace, 1.0);
+    double range = trace->value[highest] - trace->value[lowest];
     double noise = isnan(recorded->noise.value) ? 0.01 * range : recorded->noise.value;
-    struct peaks peaks = find_peaks(curve, noise);
+    struct trace_peaks peaks = trace_peaks(trace, noise);
     switch ((enum take)recorded->take) {
     case TAKE_LAST:
-        return curve->value[curve->count - 1];
+        return trace->value[trace->count - 1];
     case TAKE_MINIMUM:
-        return curve->value[lowest];
+        return trace->value[lowest];
     case TAKE_MAXIMUM:
-        return curve->value[highest];
+        return trace->value[highest];
     case TAKE_MEAN:
-        return mean(curve);
+        return trace_mean(trace);
+    case TAKE_RMS:
+        return trace_rms(trace);
     case TAKE_RANGE:
         return range;
     case TAKE_TIME_OF_MINIMUM:
-        return curve->time[lowest];
+        return trace->time[lowest];
     case TAKE_TIME_OF_MAXIMUM:
-        return curve->time[highest];
+        return trace->time[highest];
     case TAKE_SLOPE:
-        return slope(curve);
+        return trace_slope(trace);
     case TAKE_SPEED:
-        return fabs(slope(curve));
+        return fabs(trace_slope(trace));
     case TAKE_MAXIMA:
         return (double)peaks.count;
     case TAKE_PERIOD:
         return (peaks.last - peaks.first) / (double)(peaks.count - 1);
     }
     return NAN;
+}
+
+static struct error *fill_from(const struct measurement *measurement, const char *name,
+                               const struct measure_recorded *recorded, struct trace *trace)
+{
+    struct probe *probe;
+    int column;
+    TRY(measure_find_record(measurement, name, recorded->column, &probe, &column));
+    assert(probe);
+    if (!trace_reserve(trace, probe->rows + 2))
+        return out_of_memory_for("a check");
+    trace_fill(trace, probe, column, recorded);
+    return NULL;
+}
+
+/* The trace that RECORDED asks for, less what it subtracts; TRACE is to be released in any case. */
+static struct error *make_trace(const struct measurement *measurement,
+                                const struct measure_recorded *recorded, struct trace *trace)
+{
+    TRY(fill_from(measurement, recorded->probe, recorded, trace));
+    struct trace other = {0, NULL, NULL};
+    struct error *error = NULL;
+    if (recorded->less) {
+        error = fill_from(measurement, recorded->less, recorded, &other);
+        trace_subtract(trace, &other);
+        trace_release(&other);
+    }
+    if (!error && !isnan(recorded->less_mean)) {
+        if (!trace_reserve(&other, trace->count))
+            error = out_of_memory_for("a check");
+        else
+            trace_moving_mean(trace, recorded->less_mean, &other);
+        for (int64_t i = 0; i < other.count; i++)
+            trace->value[i] -= other.value[i];
+        trace_release(&other);
+    }
+    for (int64_t i = 0; i < trace->count && recorded->absolute; i++)
+        trace->value[i] = fabs(trace->value[i]);
+    return error;
 }
 
 static struct error *measure(const struct measurement *measurement, double *value)
@@ -358,22 +355,17 @@ static struct error *measure(const struct measurement *measurement, double *valu
         if (isnan(recorded.after))
             return NULL;
     }
-    TRY(find(measurement, recorded.column, &probe, &column));
-    assert(probe);
-    size_t room = ((size_t)probe->rows + 2) * sizeof(double);
-    struct curve curve = {0, memory_allocate(room), memory_allocate(room)};
-    bool made = curve.time && curve.value;
-    if (made) {
-        curve_fill(&curve, probe, column, &recorded);
-        *value = curve.count ? take(&curve, &recorded) : NAN;
+    struct trace trace = {0, NULL, NULL};
+    struct error *error = make_trace(measurement, &recorded, &trace);
+    if (!error) {
+        *value = trace.count ? take(&trace, &recorded) : NAN;
         if (!isfinite(*value))
-            *value = measure_nothing(measurement, why_not(&curve, recorded.take));
-        if (!is_finite(&curve))
+            *value = measure_nothing(measurement, why_not(&trace, recorded.take));
+        if (!is_finite(&trace))
             *value = measure_nothing(measurement, NOTHING_NOT_FINITE);
     }
-    free(curve.time);
-    free(curve.value);
-    return made ? NULL : out_of_memory_for("a check");
+    trace_release(&trace);
+    return error;
 }
 
 /* A pressure that the exact solution has everywhere and always. */

@@ -472,8 +472,11 @@ static void a_recorded_column_gives_its_numbers(void **state)
     struct bench *b = make_bench(2);
     const double rows[][2] = {{0, NAN}, {1, 2}, {2, 4}, {4, -8}, {5, -7}};
     const struct dimension line = {-1, 1, 0, 0}, rate = {-1, 1, -1, 0}, second = {0, 0, 1, 0};
-    struct measure_recorded r = {
-        .after = NAN, .before = NAN, .noise = {.value = NAN}, .reaches = {.value = NAN}};
+    struct measure_recorded r = {.after = NAN,
+                                 .before = NAN,
+                                 .less_mean = NAN,
+                                 .noise = {.value = NAN},
+                                 .reaches = {.value = NAN}};
     r.take = take("last");
     assert_float_equal(recorded(b, rows, 5, r, line), -7.0, 0.0);
     r.before = 3.0; /* between two rows */
@@ -483,6 +486,19 @@ static void a_recorded_column_gives_its_numbers(void **state)
     assert_float_equal(recorded(b, rows, 5, r, rate), 2.0, 1e-15);
     r.take = take("mean");
     assert_float_equal(recorded(b, rows, 5, r, line), 3.0, 1e-15);
+    r.take = take("rms");
+    assert_float_equal(recorded(b, rows, 5, r, line), sqrt(28.0 / 3.0), 1e-15);
+    r.take = take("last");
+    r.before = NAN;
+    r.less_mean = 2.0; /* none is left at an end, */
+    assert_float_equal(recorded(b, rows, 5, r, line), 0.0, 0.0);
+    r.take = take("minimum"); /* and at 4 the mean is that from 3 to 5, -6.25 */
+    assert_float_equal(recorded(b, rows, 5, r, line), -1.75, 1e-14);
+    r.less_mean = NAN;
+    r.less = it; /* itself */
+    r.take = take("range");
+    assert_float_equal(recorded(b, rows, 5, r, line), 0.0, 0.0);
+    r.less = NULL;
     r.take = take("speed");
     r.after = 2.0;
     r.before = 4.0;
@@ -522,8 +538,11 @@ static void peaks_count_when_they_rise_above_the_noise(void **state)
         rows[i][1] = sin(2.0 * 3.14159265358979 * rows[i][0]) + (i % 2 ? 0.004 : -0.004);
     }
     const struct dimension none = {0, 0, 0, 0}, line = {-1, 1, 0, 0}, second = {0, 0, 1, 0};
-    struct measure_recorded r = {
-        .after = NAN, .before = NAN, .noise = {.value = NAN}, .reaches = {.value = NAN}};
+    struct measure_recorded r = {.less_mean = NAN,
+                                 .after = NAN,
+                                 .before = NAN,
+                                 .noise = {.value = NAN},
+                                 .reaches = {.value = NAN}};
     r.take = take("maxima");
     assert_float_equal(recorded(b, rows, ROWS, r, none), 4.0, 0.0);
     r.take = take("period");
@@ -541,8 +560,11 @@ static void a_check_of_a_probe_that_is_not_there_is_told(void **state)
     (void)state;
     struct bench *b = make_bench(2);
     struct probe_body body = {left};
-    struct measure_recorded r = {
-        .after = NAN, .before = NAN, .noise = {.value = NAN}, .reaches = {.value = NAN}};
+    struct measure_recorded r = {.less_mean = NAN,
+                                 .after = NAN,
+                                 .before = NAN,
+                                 .noise = {.value = NAN},
+                                 .reaches = {.value = NAN}};
     struct checks *checks;
     ready(b, "body", &body);
     for (int i = 0; i < MEASURES; i++)
