@@ -111,7 +111,7 @@ static const struct symbol *find_symbol(const char *word, size_t length)
     return NULL;
 }
 
-/* A power written without its sign, as in "m3", is told apart from other slips. */
+/* A power written without its sign, as in "m3", is kept apart from other slips. */
 static struct error *unknown_symbol(const char *word, size_t length)
 {
     size_t letters = length;

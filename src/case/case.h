@@ -143,7 +143,7 @@ struct load_input {
     struct blast_input blast;
     struct record_input record;
     struct field_value pressure; /* of the time */
-    /* of the time, on the surface that looks to `side` of `axis`; count 0: not given */
+    /* of the time, on the surface that faces `side` of `axis`; count 0: not given */
     struct field_list traction;
     int axis, side;              /* side: enum face_side; -1: both */
     struct vector_value between; /* positions along `axis`; count 0: everywhere */

@@ -21,8 +21,7 @@ static bool is_key_of_case(const char *key)
     return false;
 }
 
-/* The path that KEY is about: a name of `let` before anything else. A mistake is told of TOLD at
- * PLACE. */
+/* The path that KEY is about: a name of `let` before anything else. Mistakes name TOLD at PLACE. */
 static struct error *find_target(const struct document *document, const char *key,
                                  struct mark place, const char *told, char **path)
 {

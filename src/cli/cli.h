@@ -143,8 +143,8 @@ void options_print(const struct command *command);
 /* Prints the messages of ERROR on stderr, one a line, frees it, and gives its exit status. */
 int report_error(struct error *error);
 
-/* Of several ranks the first speaks for all. Only an ERROR that a rank alone has is told by that
- * rank, and ends them all. */
+/* Of several ranks the first speaks for all. Only an ERROR that a rank alone has is reported by
+ * that rank, and ends them all. */
 void terminal_silence(const struct ranks *ranks);
 void terminal_alarm(const struct ranks *ranks, const struct error *error);
 

@@ -72,7 +72,7 @@ static struct error *refuse(const struct source *source, const char *why)
 }
 
 /* Opens SOURCE and says which file it is. It must be a regular file, which has an end; to open
- * another kind may wait for ever or do something to a device. */
+ * another kind may wait indefinitely or do something to a device. */
 static struct error *open_source(struct source *source, FILE **file)
 {
     struct stat status;

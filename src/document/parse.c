@@ -18,7 +18,8 @@ struct parse {
     const char *text; /* of LENGTH bytes */
     size_t length;
     bool located;
-    struct error *twins; /* keys given twice: they do not stop the reading, so that all are told */
+    struct error
+        *twins; /* keys given twice: they do not stop the reading, so that all are reported */
 };
 
 struct node *node_new(enum node_kind kind, struct mark place)
@@ -384,8 +385,8 @@ static struct error *build_document(struct parse *parse, struct node **root)
     return NULL;
 }
 
-/* What libfyaml 0.7.12 does not survive (a directive with malformed UTF-8 keeps it busy for ever)
- * or takes for an end (a zero byte). No case has a use for directives. */
+/* What libfyaml 0.7.12 does not survive (a directive with malformed UTF-8 never ends) or
+ * takes for an end (a zero byte). No case has a use for directives. */
 static struct error *check_bytes(const char *text, size_t length, const char *origin, bool located)
 {
     struct mark place = {origin, 1, 1};

@@ -297,7 +297,7 @@ static void complain_missing(struct reading *reading, const struct node *map,
 }
 
 /* Each search for a suggestion walks the document: a file of nothing but unknown keys must not take
- * for ever. */
+ * indefinitely. */
 static bool may_search(const struct reading *reading)
 {
     enum { SEARCHES = 20 };

@@ -1,4 +1,4 @@
-/* Verney's shell; see verney.h. With radii a and b, b^2 - a^2 = B^2 for ever, u = w/r, w = a da/dt,
+/* Verney's shell; see verney.h. With radii a and b, b^2 - a^2 = B^2, u = w/r, w = a da/dt,
  * L = ln(b/a), k = 2Y/sqrt(3), the kinetic energy, pi rho w^2 L, is what is left of the plastic
  * work:
  *

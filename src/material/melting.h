@@ -1,4 +1,4 @@
-/* What melting leaves of strength: matter that is thinner than a melt and has the heat of one
+/* What melting leaves of strength: material that is thinner than a melt and has the heat of one
  * carries no shear, neither stress nor waves.
  *
  * Shear modulus and yield stress have the factor 1 - hot thin, each from 0 to 1:
@@ -47,7 +47,7 @@ BOLIDE_INLINE struct melting melting_of(const struct eos *eos, const struct stre
     return melting;
 }
 
-/* 1 where matter at DENSITY and ENERGY, J/kg, has lost some of its strength, else 0; without a
+/* 1 where material at DENSITY and ENERGY, J/kg, has lost some of its strength, else 0; without a
  * branch, for loops. */
 BOLIDE_INLINE uint64_t melting_begins(const struct melting *melting, double density, double energy)
 {

@@ -95,7 +95,7 @@ struct measure_front {
     bool half;             /* it is half the jump instead */
     int from;              /* enum front_end */
     double slab;           /* m; particles are averaged over slabs of this thickness; 0: not */
-    double frame;          /* m/s, of the frame in which the place is told */
+    double frame;          /* m/s, of the frame in which the place is given */
 };
 struct measure_width {
     char *field;

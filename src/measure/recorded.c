@@ -75,7 +75,7 @@ struct error *measure_find_record(const struct measurement *measurement, const c
         if (!strcmp(names[*column], wanted))
             return NULL;
     }
-    /* A probe with a mistake of its own, which is told, has no columns behind the time. */
+    /* A probe with a mistake of its own, which is reported, has no columns behind the time. */
     if ((*probe)->columns < 2)
         return NULL;
     near = nearest_name(wanted, names, (*probe)->columns);

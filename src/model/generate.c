@@ -242,7 +242,7 @@ static const char *no_particle(const struct simulation_case *input, int body)
     return "no particle: the shape is smaller than the resolution, or replaced everywhere";
 }
 
-/* The mistakes that a walk over BODY has shown. Each pair of bodies is told once, by its first. */
+/* The mistakes that a walk over BODY has shown. Each pair of bodies is named once, by its first. */
 static struct error *judge_body(const struct place *whole, int body, const struct ranks *ranks,
                                 const struct finding *findings)
 {

@@ -65,8 +65,7 @@ BOLIDE_INLINE struct contact_push contact_push_prescribed(struct contact_side a,
     return contact_limit(vec3_sub(vec3_scale(a.mass, velocity), a.momentum), normal, rule);
 }
 
-/* A surface that waves run out of: its normal, of length one, and impedance times area along and
- * across it. */
+/* A transmitting surface: its normal, of length one, impedance times area along and across it. */
 struct contact_outlet {
     struct vec3 normal;
     double along, across;

@@ -25,7 +25,7 @@ struct wall_node {
     double pushed[3], pushed_by[SURFACE_CAUSES][3];
 };
 
-/* Distances of a surface from a node that are told apart, and the largest in cells. */
+/* Distances of a surface from a node that are distinguished, and the largest in cells. */
 enum { SURFACES = 256, SURFACE_REACH = 2 };
 
 /* The nodes of bodies that have common velocities: all bodies if the case has no contacts and no

@@ -42,7 +42,7 @@ BOLIDE_INLINE struct sym3 jaumann_turn(struct sym3 s, struct vec3 angle)
     return r;
 }
 
-/* The h |w|/c from which on all of w, what nodes do not resolve of the divergence, is filtered in
+/* The h |w|/c above which all of w, what nodes do not resolve of the divergence, is filtered in
  * MATERIAL, as behind shocks; below it is so in proportion, so that what is elastic rings on. Of
  * gases and explosives without strength nothing is: at the edge of a gas that expands into nothing
  * few particles share a node, and a detonation would lose its peak. */

@@ -82,7 +82,7 @@ void view_image(const struct view *view, int image, double sign[3]);
 void view_reflect(const struct view *view, const double sign[3], const float place[3],
                   double at[3]);
 
-/* What both renderers are told. */
+/* What both renderers get. */
 struct drawing_of {
     const struct scene *scene;
     const struct view *view;

@@ -1,5 +1,5 @@
 /* The checks of a case: each measures something, at its time or at the end of the run, and compares
- * it with what the case says is right. */
+ * it with what the case wants. */
 #ifndef BOLIDE_CHECKS_H
 #define BOLIDE_CHECKS_H
 

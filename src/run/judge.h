@@ -4,7 +4,7 @@
 
 #include "model/solver.h"
 
-/* What the solver of the case says of it; explosives whose constants contradict each other,
+/* What the solver finds in its case; explosives whose constants contradict each other,
  * ignitions and loads without effect, gauges that a blast reaches too weakly. The caller frees its
  * findings. */
 struct judgement judge_solver(const struct simulation *simulation);

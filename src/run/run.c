@@ -71,7 +71,7 @@ static void adapt_threads(struct run *run)
     run->simulation.threads = run->threads.now;
 }
 
-/* True at the end of the run as the case says it. */
+/* True at the end of the run as the case sets it. */
 static bool at_end(const struct run *run)
 {
     int64_t most = run->input->run.max_steps;
@@ -251,7 +251,7 @@ static struct error *check_faces(const struct run *run)
     return wrong ? input_error(run->input, "output", "faces", "%s", wrong) : NULL;
 }
 
-/* Readies what comes later, probes, checks and pictures, so that their mistakes are told now. */
+/* Readies what comes later, probes, checks and pictures: their mistakes are reported now. */
 static struct error *look_ahead(struct run *run)
 {
     run_observe(run);
@@ -306,7 +306,7 @@ static struct error *conclude(struct run *run)
     return NULL;
 }
 
-/* Whether ERROR is known on this rank alone: collective operations would then wait for ever. */
+/* Whether ERROR is known on this rank alone: collective operations would then never end. */
 static bool is_local_error(const struct run *run, const struct error *error)
 {
     return error && run->ranks.joined && !error_is_known_to_all(error);

@@ -8,7 +8,7 @@
 #include "run/checks.h"
 #include "run/warnings.h"
 
-/* How often progress is told: at least this many seconds of wall clock and this fraction of the
+/* How often progress is shown: at least this many seconds of wall clock and this fraction of the
  * run since the last time; or SILENCE seconds, which grow to a twentieth of what the run has
  * taken, but not beyond ten minutes. */
 struct progress_pace {

@@ -144,7 +144,7 @@ static struct error *run_of_sweep(struct simulation_case *input, const char *pat
     return error;
 }
 
-/* Reads every one of the RUNS, so that all mistakes are told before the first begins. */
+/* Reads every one of the RUNS, so that all mistakes are reported before the first begins. */
 static struct error *check_sweep(const char *path, int runs, const struct verify_options *options)
 {
     struct error *error = NULL;

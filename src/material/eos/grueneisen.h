@@ -7,7 +7,7 @@
  * - in compression where h, the weight of the adiabat, falls below a limit. At constant gamma h
  *   reaches zero at rho/rho_0 = 1 + 2/gamma, and cold material loses its sound speed before that;
  *   its sound speed has its maximum near h = 1/2. From the limit h_b on, h = h_b - s/(1 + 2 s/h_b),
- *   where s is what the source's h falls short of it, and G = 2 (1 - h)/x: h falls to h_b/2, gamma
+ *   where s is by how much the source's h is below it, and G = 2 (1 - h)/x: h falls to h_b/2, gamma
  *   like 1/(rho/rho_0 - 1). States on the adiabat stay as they are. c^2 > 0 follows for h_b <= 1/2;
  * - near the largest compression of the adiabat, from 0.95 of rho/rho_0 = s/(s - 1) in terms of x
  *   on: p_H is continued linearly in rho;
