@@ -8,7 +8,7 @@
 #include "case/library.h"
 #include "cli/cli.h"
 
-struct search {
+struct help_search {
     const char *text;
     int found;
 };
@@ -23,7 +23,8 @@ static bool contains(const char *whole, const char *part)
 }
 
 /* Prints TOPIC, which ends with NAME, if it is looked for. */
-static void try_entry(struct search *search, const char *topic, const char *name, const char *help)
+static void try_entry(struct help_search *search, const char *topic, const char *name,
+                      const char *help)
 {
     if (!contains(name, search->text) && !(help && contains(help, search->text)))
         return;
@@ -32,7 +33,7 @@ static void try_entry(struct search *search, const char *topic, const char *name
     printf("  %-34s  %s\n", topic, help ? help : "");
 }
 
-static void try_option(struct search *search, const char *command, const char *option,
+static void try_option(struct help_search *search, const char *command, const char *option,
                        const char *help)
 {
     char *topic = text_format("%s %s", command, option);
@@ -41,7 +42,7 @@ static void try_option(struct search *search, const char *command, const char *o
     free(topic);
 }
 
-static void try_table(struct search *search, const struct parameter *table, const char *prefix)
+static void try_table(struct help_search *search, const struct parameter *table, const char *prefix)
 {
     for (const struct parameter *p = table; p && !PARAMETER_IS_END(p); p++) {
         char *topic = p->key ? text_format("%s%s%s", prefix, *prefix ? "." : "", p->key) : NULL;
@@ -54,7 +55,7 @@ static void try_table(struct search *search, const struct parameter *table, cons
     }
 }
 
-static void try_materials(struct search *search)
+static void try_materials(struct help_search *search)
 {
     struct name_list names = {0};
     char *folder = share_folder("materials");
@@ -83,7 +84,7 @@ bool is_library_material(const char *name)
 
 bool help_search(const char *text)
 {
-    struct search search = {text, 0};
+    struct help_search search = {text, 0};
     for (int i = 0; i < command_count; i++)
         try_entry(&search, commands[i].name, commands[i].name, commands[i].help);
     const char *option, *help;

@@ -93,7 +93,7 @@ static struct error *afdmp_start(void *solver, struct simulation *simulation)
 }
 
 /* What computes the stage: its part, of the class TYPE. */
-static struct part *part_now(struct afdmp *afdmp, const struct solver_class **type)
+static struct coupled_part *part_now(struct afdmp *afdmp, const struct solver_class **type)
 {
     *type = afdmp->stage == (double)AFDMP_PROPAGATION ? &gas_class : &mpm_class;
     return afdmp->stage == (double)AFDMP_DETONATION    ? &afdmp->nest
@@ -105,7 +105,7 @@ static struct error *afdmp_prepare(void *solver, struct simulation *simulation, 
 {
     struct afdmp *afdmp = solver;
     const struct solver_class *type;
-    struct part *part = part_now(afdmp, &type);
+    struct coupled_part *part = part_now(afdmp, &type);
     share_time(afdmp, simulation);
     simulation_start_phase(&part->simulation);
     TRY(type->prepare(part->solver, &part->simulation, limit));
@@ -170,7 +170,7 @@ static struct error *afdmp_advance(void *solver, struct simulation *simulation, 
 {
     struct afdmp *afdmp = solver;
     const struct solver_class *type;
-    struct part *part = part_now(afdmp, &type);
+    struct coupled_part *part = part_now(afdmp, &type);
     struct error *error = NULL;
     simulation_start_phase(&part->simulation);
     TRY(ranks_agree(simulation->ranks, type->advance(part->solver, &part->simulation, dt)));
@@ -191,7 +191,7 @@ static struct error *afdmp_state(void *solver, struct visitor *visitor)
         TRY(visitor->visit(visitor, "afdmp/rest", NUMBER_DOUBLE, afdmp->round_region.rest,
                            afdmp->round_region.cells, 1));
     const struct solver_class *type;
-    const struct part *part = part_now(afdmp, &type);
+    const struct coupled_part *part = part_now(afdmp, &type);
     return type->state(part->solver, visitor);
 }
 

@@ -22,10 +22,10 @@ struct afdmp_rim {
 
 struct afdmp {
     struct afdmp_parameters parameters;
-    double stage;                    /* enum afdmp_stage, as checkpoints have it */
-    struct part nest, gas_part;      /* of the first two stages; */
-    struct part last;                /* of the last, and the region's before it */
-    struct mpm *nest_mpm, *last_mpm; /* NULL: there is no charge, no region */
+    double stage;                       /* enum afdmp_stage, as checkpoints have it */
+    struct coupled_part nest, gas_part; /* of the first two stages; */
+    struct coupled_part last;           /* of the last, and the region's before it */
+    struct mpm *nest_mpm, *last_mpm;    /* NULL: there is no charge, no region */
     struct gas *gas;
     int dimension;
     bool round; /* x is a radius */

@@ -43,7 +43,7 @@ struct side {
 
 struct cfdmp {
     struct cfdmp_parameters parameters;
-    struct part gas_part, mpm_part;
+    struct coupled_part gas_part, mpm_part;
     struct gas *gas;
     struct mpm *mpm;
     double awake; /* 1 when the particles are computed; 0 while all around them is at rest */

@@ -36,7 +36,7 @@ void owned_free(struct owned *owned)
     free(owned->memory);
 }
 
-struct error *part_begin(const struct part_maker *maker, struct part *part,
+struct error *part_begin(const struct part_maker *maker, struct coupled_part *part,
                          const struct simulation_case *input)
 {
     part->place = place_whole(input);
@@ -58,8 +58,8 @@ static struct bounds box_of(const struct part_maker *maker, const int64_t low[3]
     return (struct bounds){vector_at(end[0]), vector_at(end[1])};
 }
 
-void part_cut_bodies(const struct part_maker *maker, struct part *part, const int64_t low[3],
-                     const int64_t high[3])
+void part_cut_bodies(const struct part_maker *maker, struct coupled_part *part,
+                     const int64_t low[3], const int64_t high[3])
 {
     const struct simulation_case *input = part->place.input;
     const struct bounds box = part->place.box = box_of(maker, low, high);
@@ -71,7 +71,7 @@ void part_cut_bodies(const struct part_maker *maker, struct part *part, const in
     }
 }
 
-void part_block(const struct part_maker *maker, struct part *part, const int64_t low[3],
+void part_block(const struct part_maker *maker, struct coupled_part *part, const int64_t low[3],
                 const int64_t high[3])
 {
     bool any = true;
@@ -81,8 +81,8 @@ void part_block(const struct part_maker *maker, struct part *part, const int64_t
         part->place.blocked = box_of(maker, low, high);
 }
 
-void part_close_faces(const struct part_maker *maker, struct part *part, const struct gas_cut *cut,
-                      const struct place *outer)
+void part_close_faces(const struct part_maker *maker, struct coupled_part *part,
+                      const struct gas_cut *cut, const struct place *outer)
 {
     for (int axis = 0; axis < 3; axis++)
         for (int side = 0; side < 2; side++) {
@@ -101,7 +101,7 @@ void part_close_faces(const struct part_maker *maker, struct part *part, const s
         }
 }
 
-struct error *part_create(const struct part_maker *maker, struct part *part,
+struct error *part_create(const struct part_maker *maker, struct coupled_part *part,
                           const struct simulation *simulation, const struct solver_class *type,
                           const void *parameters)
 {
@@ -117,7 +117,7 @@ struct error *part_create(const struct part_maker *maker, struct part *part,
     return type->create(part->solver, &part->simulation, parameters);
 }
 
-void part_free(struct part *part, const struct solver_class *type)
+void part_free(struct coupled_part *part, const struct solver_class *type)
 {
     if (part->solver)
         type->destroy(part->solver);
@@ -125,7 +125,7 @@ void part_free(struct part *part, const struct solver_class *type)
         simulation_destroy(&part->simulation);
 }
 
-void part_show(struct simulation *simulation, const struct part *part)
+void part_show(struct simulation *simulation, const struct coupled_part *part)
 {
     const struct population_source *own = &part->simulation.population[0];
     for (int k = 0; k < part->simulation.maps; k++)
@@ -133,14 +133,14 @@ void part_show(struct simulation *simulation, const struct part *part)
     simulation_add_population(simulation, own->name, own->type, own->store);
 }
 
-void part_share_time(struct part *part, const struct simulation *simulation)
+void part_share_time(struct coupled_part *part, const struct simulation *simulation)
 {
     part->simulation.time = simulation->time;
     part->simulation.step = simulation->step;
     part->simulation.threads = simulation->threads;
 }
 
-void part_gather(struct simulation *simulation, struct part *part)
+void part_gather(struct simulation *simulation, struct coupled_part *part)
 {
     ledger_join(&simulation->ledger, &part->simulation.ledger);
     memset(&part->simulation.ledger, 0, sizeof part->simulation.ledger);

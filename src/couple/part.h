@@ -7,7 +7,7 @@
 #include "gas/gas_phases.h"
 #include "mpm/mpm_phases.h"
 
-struct part {
+struct coupled_part {
     struct place place;
     bool *elsewhere; /* of the place: bodies of which this part has nothing */
     struct simulation simulation;
@@ -32,34 +32,34 @@ struct part_maker {
 };
 
 /* The place of the part is that of all of INPUT, for the functions below to change. */
-struct error *part_begin(const struct part_maker *maker, struct part *part,
+struct error *part_begin(const struct part_maker *maker, struct coupled_part *part,
                          const struct simulation_case *input);
 
 /* Bodies of the part reach to the faces of the box of cells from LOW to HIGH; those beyond are
  * elsewhere. */
-void part_cut_bodies(const struct part_maker *maker, struct part *part, const int64_t low[3],
-                     const int64_t high[3]);
+void part_cut_bodies(const struct part_maker *maker, struct coupled_part *part,
+                     const int64_t low[3], const int64_t high[3]);
 
 /* The cells from LOW to HIGH are another part's, where there are any. */
-void part_block(const struct part_maker *maker, struct part *part, const int64_t low[3],
+void part_block(const struct part_maker *maker, struct coupled_part *part, const int64_t low[3],
                 const int64_t high[3]);
 
 /* The faces of the box of CUT that are not open are closed where those of OUTER are, else
  * outflows. */
-void part_close_faces(const struct part_maker *maker, struct part *part, const struct gas_cut *cut,
-                      const struct place *outer);
+void part_close_faces(const struct part_maker *maker, struct coupled_part *part,
+                      const struct gas_cut *cut, const struct place *outer);
 
 /* Makes the simulation of the part's place and its solver, of TYPE with PARAMETERS. */
-struct error *part_create(const struct part_maker *maker, struct part *part,
+struct error *part_create(const struct part_maker *maker, struct coupled_part *part,
                           const struct simulation *simulation, const struct solver_class *type,
                           const void *parameters);
-void part_free(struct part *part, const struct solver_class *type);
+void part_free(struct coupled_part *part, const struct solver_class *type);
 
 /* The part's own population is shown by the run; the part has the time of the run; the run gets
  * what the part has booked, and how long it took. */
-void part_show(struct simulation *simulation, const struct part *part);
-void part_share_time(struct part *part, const struct simulation *simulation);
-void part_gather(struct simulation *simulation, struct part *part);
+void part_show(struct simulation *simulation, const struct coupled_part *part);
+void part_share_time(struct coupled_part *part, const struct simulation *simulation);
+void part_gather(struct simulation *simulation, struct coupled_part *part);
 
 /* The edge of the cells of all parts. */
 double part_edge(const struct mpm_parameters *mpm, const struct simulation_case *input);

@@ -21,7 +21,7 @@ static void block_inside(struct cfdmp *cfdmp)
 static struct error *make_gas_part(struct cfdmp *cfdmp, const struct simulation *simulation)
 {
     const struct simulation_case *input = simulation->problem->input;
-    struct part *part = &cfdmp->gas_part;
+    struct coupled_part *part = &cfdmp->gas_part;
     TRY(part_begin(&cfdmp->maker, part, input));
     part->place.resolution = cfdmp->edge;
     for (int b = 0; b < input->bodies.count; b++)
@@ -37,7 +37,7 @@ static struct error *make_gas_part(struct cfdmp *cfdmp, const struct simulation 
 
 static struct error *make_mpm_part(struct cfdmp *cfdmp, const struct simulation *simulation)
 {
-    struct part *part = &cfdmp->mpm_part;
+    struct coupled_part *part = &cfdmp->mpm_part;
     TRY(part_begin(&cfdmp->maker, part, simulation->problem->input));
     part_cut_bodies(&cfdmp->maker, part, cfdmp->cut.low, cfdmp->cut.high);
     part_close_faces(&cfdmp->maker, part, &cfdmp->cut, &simulation->problem->place);

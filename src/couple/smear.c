@@ -9,7 +9,7 @@
 enum { REACH = 2, SPAN = 2 * REACH + 1 };
 
 /* Cells of the box along one axis. */
-struct range {
+struct smear_range {
     int axis;
     int64_t from, to;
 };
@@ -22,7 +22,7 @@ struct span {
 };
 
 /* Those of RANGE for a particle at PLACE, in cells. */
-static struct span span_at(const struct smear *smear, const struct range *range, double place,
+static struct span span_at(const struct smear *smear, const struct smear_range *range, double place,
                            double half)
 {
     const int64_t last = smear->count[range->axis] - 1,
@@ -47,7 +47,7 @@ static struct span span_at(const struct smear *smear, const struct range *range,
 
 /* Adds what PARTICLE has to SUMS, of the cells in RANGE. */
 static void smear_particle(const struct smear *smear, const struct smeared *particle,
-                           const struct range range[3], struct smear_sums *sums)
+                           const struct smear_range range[3], struct smear_sums *sums)
 {
     enum { NUMBERS = sizeof(struct smear_sums) / sizeof(double) };
     const double *u = particle->velocity, m = particle->mass;
@@ -114,9 +114,9 @@ void smear_crowd(const struct smear *smear, const struct crowd *crowd, int threa
         }
 #pragma omp for schedule(static)
         for (int part = 0; part < threads; part++) {
-            struct range range[3];
+            struct smear_range range[3];
             for (int k = 0; k < 3; k++)
-                range[k] = (struct range){k, 0, smear->count[k]};
+                range[k] = (struct smear_range){k, 0, smear->count[k]};
             range[axis].from = (last + 1) * part / threads;
             range[axis].to = (last + 1) * (part + 1) / threads;
             /* whose border gets what goes beyond */

@@ -186,7 +186,7 @@ static struct error *find_nest(struct afdmp *afdmp, const struct simulation_case
 static struct error *make_gas_part(struct afdmp *afdmp, const struct simulation *simulation)
 {
     const struct simulation_case *input = simulation->problem->input;
-    struct part *part = &afdmp->gas_part;
+    struct coupled_part *part = &afdmp->gas_part;
     TRY(part_begin(&afdmp->maker, part, input));
     part->place.resolution = afdmp->edge;
     for (int b = 0; b < input->bodies.count; b++)
@@ -202,7 +202,7 @@ static struct error *make_gas_part(struct afdmp *afdmp, const struct simulation 
 /* A part of material points, whose bodies reach to the faces of BOX, and which ends where the
  * domain does. Solids are in it or not. */
 static struct error *make_mpm_part(struct afdmp *afdmp, const struct simulation *simulation,
-                                   struct part *part, const struct gas_cut *box,
+                                   struct coupled_part *part, const struct gas_cut *box,
                                    const struct gas_cut *ends, bool solids)
 {
     const struct simulation_case *input = simulation->problem->input;

@@ -58,14 +58,14 @@ struct received {
 
 /* A search for the particle that stood nearest to an image; of those equally near the one of the
  * lowest id. */
-struct search {
+struct mirror_search {
     const struct start_place *place, *image, *nearest;
     double distance2;
 };
 
 static void look_at(void *context, int64_t index)
 {
-    struct search *search = context;
+    struct mirror_search *search = context;
     const struct start_place *place = &search->place[index];
     const double *x = place->at, *image = search->image->at;
     const double distance2 =
@@ -181,7 +181,7 @@ static struct error *compare(const struct received *received, double sign, doubl
     TRY(near_points_make((const double(*)[3])received->stood, received->stands, reach, &near));
     for (int32_t i = received->stands; i < received->count; i++) {
         const struct start_place *image = &received->place[i];
-        struct search search = {received->place, image, NULL, square(reach)};
+        struct mirror_search search = {received->place, image, NULL, square(reach)};
         near_points_about(&near, image->at, look_at, &search);
         const double difference =
             search.nearest ? fabs(image->field - sign * search.nearest->field) : NAN;

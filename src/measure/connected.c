@@ -59,7 +59,7 @@ struct error *connected_failures(const struct population *population, bool **fai
 
 /* A search for the particles that are connected with point `index`. Points are the particles of
  * this rank that count, then those of other ranks near them. */
-struct search {
+struct piece_search {
     int32_t own, count, index;
     int32_t *particle;       /* of an own point */
     double (*at)[3], *reach; /* reach: link D */
@@ -68,7 +68,7 @@ struct search {
     int32_t *parent; /* the point's own index where it stands for a set, -1: not counted */
 };
 
-static bool search_allocate(struct search *search, int32_t own, int32_t remotes)
+static bool search_allocate(struct piece_search *search, int32_t own, int32_t remotes)
 {
     const size_t room = (size_t)own + (size_t)remotes + 1;
     search->particle = memory_allocate(room * sizeof *search->particle);
@@ -81,7 +81,7 @@ static bool search_allocate(struct search *search, int32_t own, int32_t remotes)
            search->parent;
 }
 
-static void search_free(struct search *search)
+static void search_free(struct piece_search *search)
 {
     free(search->particle);
     free(search->at);
@@ -92,8 +92,9 @@ static void search_free(struct search *search)
 }
 
 /* The points of this rank; LABEL becomes the id of those that count. */
-static void take_own(struct search *search, const struct population *p, const double *diameter,
-                     const bool *failed, const struct connection *connection, uint64_t *label)
+static void take_own(struct piece_search *search, const struct population *p,
+                     const double *diameter, const bool *failed,
+                     const struct connection *connection, uint64_t *label)
 {
     for (int32_t i = 0; i < p->count; i++) {
         const bool counts = (connection->body < 0 || p->body[i] == connection->body) &&
@@ -113,7 +114,8 @@ static void take_own(struct search *search, const struct population *p, const do
 }
 
 /* Those of other ranks, whose labels CAME. */
-static void take_remote(struct search *search, const struct ghosts *ghosts, const uint64_t *came)
+static void take_remote(struct piece_search *search, const struct ghosts *ghosts,
+                        const uint64_t *came)
 {
     for (int32_t g = 0; g < ghosts->remotes; g++) {
         if (came[g] == CONNECTED_NONE)
@@ -140,7 +142,7 @@ static int32_t root_of(int32_t *parent, int32_t i)
 
 static void try_link(void *context, int64_t other)
 {
-    struct search *s = context;
+    struct piece_search *s = context;
     const int32_t i = s->index, j = (int32_t)other;
     if (j <= i || s->body[i] != s->body[j])
         return;
@@ -151,7 +153,7 @@ static void try_link(void *context, int64_t other)
 }
 
 /* Joins what is connected as far as this rank sees it. */
-static struct error *join(struct search *search)
+static struct error *join(struct piece_search *search)
 {
     struct near_points near;
     double largest = 0.0;
@@ -169,7 +171,7 @@ static struct error *join(struct search *search)
 }
 
 /* The labels of this rank's particles as they are known now. */
-static void read_labels(struct search *search, uint64_t *label)
+static void read_labels(struct piece_search *search, uint64_t *label)
 {
     for (int32_t k = 0; k < search->own; k++)
         label[search->particle[k]] = search->label[root_of(search->parent, k)];
@@ -177,8 +179,8 @@ static void read_labels(struct search *search, uint64_t *label)
 
 /* Exchanges labels with the ranks that see the same points until no rank learns anything new: the
  * lowest id of a set spreads from rank to rank. CAME has room for a number a ghost. */
-static void settle(struct search *search, const struct ranks *ranks, struct exchange *exchange,
-                   uint64_t *label, uint64_t *came)
+static void settle(struct piece_search *search, const struct ranks *ranks,
+                   struct exchange *exchange, uint64_t *label, uint64_t *came)
 {
     for (bool learnt = ranks->joined; learnt;) {
         read_labels(search, label);
@@ -197,7 +199,7 @@ static void settle(struct search *search, const struct ranks *ranks, struct exch
 }
 
 /* Learns which particles of other ranks count, joins and settles. GHOSTS are planned. */
-static struct error *search_all(struct search *search, const struct ranks *ranks,
+static struct error *search_all(struct piece_search *search, const struct ranks *ranks,
                                 struct ghosts *ghosts, uint64_t *label, uint64_t *came)
 {
     if (ranks->joined) {
@@ -215,7 +217,7 @@ struct error *connected_find(const struct ranks *ranks, const struct population 
                              const struct connection *connection, uint64_t *label)
 {
     struct ghosts ghosts = {0};
-    struct search search = {0};
+    struct piece_search search = {0};
     uint64_t *came = NULL;
     struct error *error = particles_see(population, diameter, connection->link, &ghosts);
     if (!error) {

@@ -75,13 +75,14 @@ static struct error *average_slabs(const struct ranks *ranks, struct samples *sa
 
 /* A front that is sought: samples stand in order as they are seen from the end where the search
  * begins. */
-struct search {
+struct front_search {
     const struct ranks *ranks;
     const struct samples *own;
     bool from_high;
 };
 
-static bool is_before(const struct search *search, const struct sample *a, const struct sample *b)
+static bool is_before(const struct front_search *search, const struct sample *a,
+                      const struct sample *b)
 {
     const int order = sample_order(a, b);
     return search->from_high ? order > 0 : order < 0;
@@ -89,7 +90,7 @@ static bool is_before(const struct search *search, const struct sample *a, const
 
 /* Collective: of the samples that the ranks choose (NULL: none) the one that is seen first, or
  * last. *found is false where there is none. */
-static struct error *first_of_all(const struct search *search, const struct sample *chosen,
+static struct error *first_of_all(const struct front_search *search, const struct sample *chosen,
                                   bool last, struct sample *first, bool *found)
 {
     struct sample *all;
@@ -109,8 +110,8 @@ static struct error *first_of_all(const struct search *search, const struct samp
  * first, and those before one that is known. */
 enum wanted { ANY, AT_LEVEL, BEYOND, BEFORE };
 
-static bool is_wanted(const struct search *search, enum wanted wanted, const struct sample *sample,
-                      double level, const struct sample *known)
+static bool is_wanted(const struct front_search *search, enum wanted wanted,
+                      const struct sample *sample, double level, const struct sample *known)
 {
     switch (wanted) {
     case ANY:
@@ -126,7 +127,7 @@ static bool is_wanted(const struct search *search, enum wanted wanted, const str
 }
 
 /* Collective: the first of the WANTED samples of all ranks; of those before another the last. */
-static struct error *find(const struct search *search, enum wanted wanted, double level,
+static struct error *find(const struct front_search *search, enum wanted wanted, double level,
                           const struct sample *known, struct sample *sample, bool *found)
 {
     const bool last = wanted == BEFORE;
@@ -141,8 +142,8 @@ static struct error *find(const struct search *search, enum wanted wanted, doubl
 }
 
 /* Where the line through the samples crosses LEVEL first. */
-static struct error *crossing(const struct search *search, const struct sample *first, double level,
-                              double *place)
+static struct error *crossing(const struct front_search *search, const struct sample *first,
+                              double level, double *place)
 {
     struct sample at_level, beyond, before;
     bool reached, crossed, found;
@@ -165,7 +166,7 @@ static struct error *crossing(const struct search *search, const struct sample *
 
 /* Collective: the mean distance from AHEAD of the values that lie half of JUMP or more beyond it;
  * of all, where JUMP is zero. */
-static double mean_beyond(const struct search *search, double ahead, double jump)
+static double mean_beyond(const struct front_search *search, double ahead, double jump)
 {
     struct exact_sum sum = {0};
     int64_t count = 0;
@@ -183,7 +184,7 @@ static double mean_beyond(const struct search *search, double ahead, double jump
 /* Half the jump: halfway between the field AHEAD, that of the first sample seen, and the mean of
  * all that is beyond this level. The level rises from half the mean of all to the first that is so:
  * a few high peaks do not hold it up, nor does what is at rest behind the wave draw it down. */
-static double half_jump(const struct search *search, double ahead)
+static double half_jump(const struct front_search *search, double ahead)
 {
     double jump = mean_beyond(search, ahead, 0.0);
     for (double before = 0.0; fabs(jump) > fabs(before);) {
@@ -197,7 +198,7 @@ struct error *front_place(const struct ranks *ranks, struct samples *own,
                           const struct measure_front *front, double time, double *place,
                           double *level)
 {
-    const struct search search = {ranks, own, front->from == FRONT_FROM_HIGH};
+    const struct front_search search = {ranks, own, front->from == FRONT_FROM_HIGH};
     struct sample first;
     bool found;
     if (front->slab > 0.0)

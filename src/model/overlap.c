@@ -100,7 +100,7 @@ static enum overlap overlap_of(const struct overlaps *overlaps, int body, int ot
     return gives_way ? OVERLAP_DROP : OVERLAP_MISTAKE;
 }
 
-struct search {
+struct overlap_search {
     const struct overlaps *overlaps;
     int body, count;
     int64_t room;
@@ -108,7 +108,7 @@ struct search {
     bool out_of_memory;
 };
 
-static void note(struct search *search, int other)
+static void note(struct overlap_search *search, int other)
 {
     const struct overlaps *overlaps = search->overlaps;
     if (other == search->body ||
@@ -124,7 +124,7 @@ static void note(struct search *search, int other)
         search->found[search->count++] = (struct rival){other, overlap, overlaps->bounds[other]};
 }
 
-static void seek(struct search *search, int begin, int end)
+static void seek(struct overlap_search *search, int begin, int end)
 {
     const struct overlaps *overlaps = search->overlaps;
     const struct bounds *own = &overlaps->bounds[search->body];
@@ -150,7 +150,7 @@ static int by_body(const void *left, const void *right)
 struct error *overlaps_rivals(const struct overlaps *overlaps, int body, struct rival **rivals,
                               int *count)
 {
-    struct search search = {.overlaps = overlaps, .body = body};
+    struct overlap_search search = {.overlaps = overlaps, .body = body};
     seek(&search, 0, overlaps->place->input->bodies.count);
     *rivals = search.found;
     *count = search.count;

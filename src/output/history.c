@@ -87,17 +87,18 @@ static void totals_columns(struct line *line, const char *prefix, const struct t
                totals->entry[i]);
 }
 
-struct range {
+struct entry_range {
     double low, high;
 };
 
-static void widen(struct range *range, double value)
+static void widen(struct entry_range *range, double value)
 {
     range->low = value < range->low ? value : range->low;
     range->high = value > range->high ? value : range->high;
 }
 
-static void range_columns(struct line *line, const char *name, const char *unit, struct range range)
+static void range_columns(struct line *line, const char *name, const char *unit,
+                          struct entry_range range)
 {
     column(line, name, ".min", unit, range.low);
     column(line, name, ".max", unit, range.high);
@@ -137,21 +138,22 @@ struct row {
     double dt, drift;
     int64_t count, more[POPULATIONS_MAX]; /* of the first population, and of all that count */
     struct totals now, booked[LEDGER_CAUSES];
-    struct range density, pressure, speed;
+    struct entry_range density, pressure, speed;
     struct load_totals *loads; /* of each load of the case */
 };
 
 /* Of no particle there are no extremes. */
-static struct range over_ranks(const struct ranks *ranks, struct range range)
+static struct entry_range over_ranks(const struct ranks *ranks, struct entry_range range)
 {
-    const struct range all = {ranks_minimum(ranks, range.low), ranks_maximum(ranks, range.high)};
-    return all.low <= all.high ? all : (struct range){NAN, NAN};
+    const struct entry_range all = {ranks_minimum(ranks, range.low),
+                                    ranks_maximum(ranks, range.high)};
+    return all.low <= all.high ? all : (struct entry_range){NAN, NAN};
 }
 
 /* Of all populations, and how many members count in each. */
 static void find_extremes(const struct simulation *simulation, struct row *row)
 {
-    struct range density = {INFINITY, -INFINITY}, pressure = density, speed = density;
+    struct entry_range density = {INFINITY, -INFINITY}, pressure = density, speed = density;
     for (int k = 0; k < simulation->populations; k++) {
         const struct population population = simulation_population_at(simulation, k),
                                 *members = &population;
@@ -167,7 +169,7 @@ static void find_extremes(const struct simulation *simulation, struct row *row)
         }
         row->more[k] = ranks_sum(simulation->ranks, count);
     }
-    speed = (struct range){sqrt(maximum(speed.low, 0.0)), sqrt(maximum(speed.high, 0.0))};
+    speed = (struct entry_range){sqrt(maximum(speed.low, 0.0)), sqrt(maximum(speed.high, 0.0))};
     row->density = over_ranks(simulation->ranks, density);
     row->pressure = over_ranks(simulation->ranks, pressure);
     row->speed = over_ranks(simulation->ranks, speed);

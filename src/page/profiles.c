@@ -10,14 +10,14 @@
 
 /* The rows FIRST .. FIRST + COUNT - 1 of a table belong to the same material or body; all do where
  * the first column is no name. */
-struct part {
+struct profile_part {
     const char *name;
     int64_t first, count;
 };
 
-static struct part next_part(const struct csv *csv, bool named, int64_t first)
+static struct profile_part next_part(const struct csv *csv, bool named, int64_t first)
 {
-    struct part part = {named ? csv_field(csv, first, 0) : "mean", first, 0};
+    struct profile_part part = {named ? csv_field(csv, first, 0) : "mean", first, 0};
     while (first + part.count < csv->rows &&
            (!named || !strcmp(csv_field(csv, first + part.count, 0), part.name)))
         part.count++;
@@ -39,8 +39,8 @@ static bool split_mean(const char *head, char name[64], char unit[UNIT_TEXT])
 /* Numbers of a plot: places, and for each series its mean and the edges of its band. */
 enum { LINES = 3 };
 
-static void fill_series(const struct csv *csv, const struct part *part, int column, double *numbers,
-                        struct page_series *series)
+static void fill_series(const struct csv *csv, const struct profile_part *part, int column,
+                        double *numbers, struct page_series *series)
 {
     double *mean = numbers, *low = mean + part->count, *high = low + part->count;
     for (int64_t i = 0; i < part->count; i++) {
@@ -61,7 +61,7 @@ static struct error *plot_field(const struct page *page, const struct csv *csv, 
     if (!split_mean(csv_head(csv, column), name, unit))
         return NULL;
     char *whole = text_format("%s: %s", title, name);
-    struct part part = next_part(csv, named, 0);
+    struct profile_part part = next_part(csv, named, 0);
     const int64_t count = part.count;
     double *numbers = memory_allocate((size_t)(csv->rows * LINES + count + 1) * sizeof *numbers);
     struct error *error = whole && numbers ? NULL : out_of_memory_for("a report");

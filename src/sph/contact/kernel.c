@@ -29,15 +29,15 @@ BOLIDE_INLINE struct totals_of_row totals_of_sums(struct pair_kind kind, bool dr
 
 /* Neighbours of one part of a row: whether their contacts are the usual ones, and whether contact
  * laws act. */
-struct part {
+struct row_part {
     const uint32_t *entry;
     int count;
     bool usual, with_law;
 };
 
 /* Adds the contacts of one part of a row. */
-BOLIDE_INLINE void add_part(const struct pair_loop *loop, struct pair_kind kind, struct part part,
-                            int32_t i, struct sums *sums)
+BOLIDE_INLINE void add_part(const struct pair_loop *loop, struct pair_kind kind,
+                            struct row_part part, int32_t i, struct sums *sums)
 {
     const struct lane_records records = {loop->record, record_stride(kind), kind.dimension,
                                          loop->empty,  loop->smoothing,     NULL};
@@ -104,7 +104,7 @@ BOLIDE_INLINE void write_rates(const struct pair_rates *rates, int32_t i, double
 }
 
 /* An instance of add_part out of line, for contacts that are not the usual ones. */
-typedef void add_apart(const struct pair_loop *loop, struct part part, int32_t i,
+typedef void add_apart(const struct pair_loop *loop, struct row_part part, int32_t i,
                        struct sums *sums);
 
 /* What of a row has not been added yet. */
@@ -121,8 +121,8 @@ static void add_next(const struct pair_loop *loop, add_apart *add, int32_t i, st
     const int end = lanes_part(rest->entry, rest->begin, rest->count, part);
     if (end > rest->begin)
         add(loop,
-            (struct part){rest->entry + rest->begin, end - rest->begin, rest->usual,
-                          part & PART_LAW},
+            (struct row_part){rest->entry + rest->begin, end - rest->begin, rest->usual,
+                              part & PART_LAW},
             i, sums);
     rest->begin = end;
 }
@@ -145,7 +145,7 @@ BOLIDE_INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind
     if (rest.usual) {
         rest.begin = lanes_part(rest.entry, 0, rest.count, 0);
         if (rest.begin > 0)
-            add_part(loop, kind, (struct part){rest.entry, rest.begin, true, false}, i, &sums);
+            add_part(loop, kind, (struct row_part){rest.entry, rest.begin, true, false}, i, &sums);
     } else {
         add_next(loop, add, i, &rest, 0, &sums);
     }
@@ -178,7 +178,7 @@ BOLIDE_INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind
  * meet along it and whether the drift is wanted is asked in the other instance of the part, out of
  * line. */
 #define INSTANCE(name, dimension, shear, depth, turn)                                       \
-    APART void name##_part(const struct pair_loop *loop, struct part part, int32_t i,       \
+    APART void name##_part(const struct pair_loop *loop, struct row_part part, int32_t i,   \
                            struct sums *sums)                                               \
     {                                                                                       \
         const struct pair_kind kind = {                                                     \
@@ -186,8 +186,8 @@ BOLIDE_INLINE void row_rates(const struct pair_loop *loop, struct pair_kind kind
         const struct pair_kind any = {dimension, shear, loop->kind.star,  loop->kind.drift, \
                                       depth,     turn,  loop->kind.breaks};                 \
         struct sums copy = *sums; /* that nothing else points at */                         \
-        const struct part usual = {part.entry, part.count, true, false};                    \
-        const struct part other = {part.entry, part.count, false, part.with_law};           \
+        const struct row_part usual = {part.entry, part.count, true, false};                \
+        const struct row_part other = {part.entry, part.count, false, part.with_law};       \
         if (!turn && part.usual && !part.with_law)                                          \
             add_part(loop, kind, usual, i, &copy);                                          \
         else                                                                                \

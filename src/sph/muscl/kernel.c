@@ -9,15 +9,15 @@
 #include "sph/muscl/rates.h"
 
 /* Neighbours of one part of a row, and whether contact laws act. */
-struct part {
+struct row_part {
     const uint32_t *entry;
     int count;
     bool with_law;
 };
 
 /* Adds the contacts of one part of a row. */
-BOLIDE_INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind, struct part part,
-                            int32_t i, struct sums *sums)
+BOLIDE_INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kind,
+                            struct row_part part, int32_t i, struct sums *sums)
 {
     const struct lane_records records = {loop->record, muscl_stride(kind), kind.dimension,
                                          loop->empty,  loop->smoothing,    loop->place};
@@ -68,7 +68,7 @@ BOLIDE_INLINE void add_part(const struct muscl_loop *loop, struct muscl_kind kin
 }
 
 /* An instance of add_part out of line. */
-typedef void add_apart(const struct muscl_loop *loop, struct part part, int32_t i,
+typedef void add_apart(const struct muscl_loop *loop, struct row_part part, int32_t i,
                        struct sums *sums);
 
 /* What of a row has not been added yet. */
@@ -83,8 +83,8 @@ static void add_next(const struct muscl_loop *loop, add_apart *add, int32_t i, s
 {
     const int end = lanes_part(rest->entry, rest->begin, rest->count, part);
     if (end > rest->begin)
-        add(loop, (struct part){rest->entry + rest->begin, end - rest->begin, part & PART_LAW}, i,
-            sums);
+        add(loop, (struct row_part){rest->entry + rest->begin, end - rest->begin, part & PART_LAW},
+            i, sums);
     rest->begin = end;
 }
 
@@ -102,7 +102,7 @@ BOLIDE_INLINE void sum_up(const struct muscl_loop *loop, struct muscl_kind kind,
     const double *of_images = none;
     rest.begin = lanes_part(rest.entry, 0, rest.count, 0);
     if (rest.begin > 0)
-        add_part(loop, kind, (struct part){rest.entry, rest.begin, false}, i, &sums);
+        add_part(loop, kind, (struct row_part){rest.entry, rest.begin, false}, i, &sums);
     if (rest.begin < rest.count)
         add_next(loop, add, i, &rest, PART_LAW, &sums);
     sums_totals(kind, &sums, all);
@@ -135,17 +135,17 @@ BOLIDE_INLINE void all_rates(const struct muscl_loop *loop, struct muscl_kind ki
 }
 
 /* Each body of the rows' loop is an instance; its name says of which kind. */
-#define INSTANCE(name, ...)                                                            \
-    APART void name##_part(const struct muscl_loop *loop, struct part part, int32_t i, \
-                           struct sums *sums)                                          \
-    {                                                                                  \
-        struct sums copy = *sums; /* that nothing else points at */                    \
-        add_part(loop, (struct muscl_kind){__VA_ARGS__}, part, i, &copy);              \
-        *sums = copy;                                                                  \
-    }                                                                                  \
-    static void name(const struct muscl_loop *loop, int32_t begin, int32_t end)        \
-    {                                                                                  \
-        all_rates(loop, (struct muscl_kind){__VA_ARGS__}, name##_part, begin, end);    \
+#define INSTANCE(name, ...)                                                                \
+    APART void name##_part(const struct muscl_loop *loop, struct row_part part, int32_t i, \
+                           struct sums *sums)                                              \
+    {                                                                                      \
+        struct sums copy = *sums; /* that nothing else points at */                        \
+        add_part(loop, (struct muscl_kind){__VA_ARGS__}, part, i, &copy);                  \
+        *sums = copy;                                                                      \
+    }                                                                                      \
+    static void name(const struct muscl_loop *loop, int32_t begin, int32_t end)            \
+    {                                                                                      \
+        all_rates(loop, (struct muscl_kind){__VA_ARGS__}, name##_part, begin, end);        \
     }
 
 INSTANCE(line, 1, false, false)
