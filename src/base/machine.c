@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "base/base.h"
@@ -72,29 +71,4 @@ double machine_memory(void)
     if (!getrlimit(RLIMIT_AS, &limit) && limit.rlim_cur != RLIM_INFINITY)
         least = minimum(least, (double)limit.rlim_cur);
     return minimum(least, memory_of_group());
-}
-
-double machine_resident(void)
-{
-    double pages = 0.0;
-    FILE *file = fopen("/proc/self/statm", "re");
-    if (file && fscanf(file, "%*f %lf", &pages) != 1)
-        pages = 0.0;
-    if (file)
-        fclose(file);
-    return pages * (double)sysconf(_SC_PAGESIZE);
-}
-
-double machine_peak(void)
-{
-    struct rusage usage;
-    return getrusage(RUSAGE_SELF, &usage) ? 0.0 : 1024.0 * (double)usage.ru_maxrss;
-}
-
-double machine_cpu_seconds(void)
-{
-    struct timespec used;
-    return clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used)
-               ? 0.0
-               : (double)used.tv_sec + 1e-9 * (double)used.tv_nsec;
 }

@@ -6,12 +6,4 @@
  * group or a limit of the process (ulimit -v) says so. INFINITY where the system does not tell. */
 double machine_memory(void);
 
-/* Bytes that this process occupies now, and the most that it ever has; 0 where the system does not
- * tell. */
-double machine_resident(void);
-double machine_peak(void);
-
-/* Seconds that all threads of this process have computed, ended ones included. */
-double machine_cpu_seconds(void);
-
 #endif

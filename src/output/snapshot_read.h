@@ -9,8 +9,4 @@
 struct error *snapshot_read(const char *path, const char *const *fields, int count,
                             struct frame *frame);
 
-/* The names of the fields of the snapshot at PATH, components apart, in fresh memory; names_free
- * frees them. */
-struct error *snapshot_fields(const char *path, char ***names, int *count);
-
 #endif

@@ -142,11 +142,6 @@ void cells_make(struct cells *cells, int dimension, double edge, struct cell_poi
         cells->level_begin[level] = first_of_level(cells, level);
 }
 
-int cell_level(const struct cells *cells, int32_t cell)
-{
-    return level_of_key(cells, cells->cell[cell].key);
-}
-
 /* The range of cells of level OTHER that lie within range of a cell AT of LEVEL. Returns their
  * number. */
 static double range_of(const struct cells *cells, int level, const int64_t at[3], int other,

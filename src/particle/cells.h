@@ -45,8 +45,6 @@ void cells_make(struct cells *cells, int dimension, double edge, struct cell_poi
                 struct scratch *scratch, int threads);
 size_t cells_bytes(int32_t count);
 
-int cell_level(const struct cells *cells, int32_t cell);
-
 /* The cells that may hold neighbours of the points of CELL: calls RUN with each one's points. */
 typedef void cells_run(void *context, const struct cell_point *point, int32_t count);
 void cells_around(const struct cells *cells, int32_t cell, cells_run *run, void *context);

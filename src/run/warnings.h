@@ -52,9 +52,6 @@ struct warning_results {
     struct warning *item;
 };
 
-/* "tension": what a case calls it in `expected_warnings`; NULL for WARNING_KINDS. */
-const char *warning_kind_name(enum warning_kind kind);
-
 struct judgement;
 struct warnings;
 

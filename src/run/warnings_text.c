@@ -36,11 +36,6 @@ static const struct {
     [WARNING_LOAD] = {"load", "", NULL, NULL, 1.0},
 };
 
-const char *warning_kind_name(enum warning_kind kind)
-{
-    return kind < WARNING_KINDS ? kinds[kind].name : NULL;
-}
-
 static enum warning_kind kind_of(const struct warnings *warnings, int index)
 {
     return index >= warnings->of_loads    ? WARNING_LOAD
