@@ -303,6 +303,7 @@ static struct error *move(struct gas *gas, struct cell_block *list, int64_t coun
     for (int n = 0; n <= GAS_SHOCK; n++)
         t.old[n] = gas->u[n];
     struct error *error = cell_blocks_renew(cells, list, (int32_t)count, &old);
+    gas->room = 0; /* sweeps have exchanged arrays of the old store with their own */
     if (!error) {
         gas_bind(gas, cells);
         t.open = gas->open;
