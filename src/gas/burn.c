@@ -123,12 +123,11 @@ static void count_masses(const struct gas *gas, const struct simulation *simulat
                          double *room)
 {
     const struct cell_blocks *cells = gas->cells;
-    const double volume = pow(cells->edge, cells->dimension);
     struct exact_sum sum[3] = {{{0}, 0, false}, {{0}, 0, false}, {{0}, 0, false}};
     for (int32_t i = 0; i < cells->count; i++) {
         if (gas->open && gas->open[i] == 0.0)
             continue;
-        const double size = gas_cell_volume(volume, cells->edge, cells->position[i][0], gas->round);
+        const double size = gas_volume_of(gas, i);
         const double second = gas->u[GAS_SECOND][i];
         exact_sum_add(&sum[0], size * (gas->u[GAS_DENSITY][i] - second));
         exact_sum_add(&sum[1], size * second);
@@ -214,9 +213,8 @@ static void afterburn_block(struct gas *gas, int32_t b, double dt, struct ledger
     const struct cell_blocks *cells = gas->cells;
     const struct cell_block *block = &cells->block[b];
     const int32_t end = block->first + block->count[0] * block->count[1] * block->count[2];
-    const double volume = pow(cells->edge, cells->dimension),
-                 done = gas->most_afterburnt * (1.0 - 1e-9), /* what rounding leaves */
-                     *burnt = gas->layout.lit ? gas->u[gas->layout.burnt] : NULL;
+    const double done = gas->most_afterburnt * (1.0 - 1e-9), /* what rounding leaves */
+        *burnt = gas->layout.lit ? gas->u[gas->layout.burnt] : NULL;
     for (int32_t i = block->first; i < end; i++) {
         const double mass = gas->u[GAS_SECOND][i];
         if (mass <= 0.0 || (burnt && burnt[i] < 1.0) || (gas->open && gas->open[i] == 0.0))
@@ -230,9 +228,8 @@ static void afterburn_block(struct gas *gas, int32_t b, double dt, struct ledger
         if (gas->afterburn.mixing > 0.0 && *own >= done * mass)
             heat += mix(gas, i, dt);
         if (heat != 0.0)
-            ledger_book(
-                ledger, LEDGER_AFTERBURN, 0.0, vec3_make(0.0, 0.0, 0.0), vec3_make(0.0, 0.0, 0.0),
-                heat * gas_cell_volume(volume, cells->edge, cells->position[i][0], gas->round));
+            ledger_book(ledger, LEDGER_AFTERBURN, 0.0, vec3_make(0.0, 0.0, 0.0),
+                        vec3_make(0.0, 0.0, 0.0), heat * gas_volume_of(gas, i));
     }
 }
 

@@ -70,15 +70,17 @@ static void pin(struct cell_blocks *cells, struct bounds box, int around)
     }
 }
 
-/* Where levels meet no cell is blocked, up to two of the next wider ones from there. */
+/* Where levels meet no cell is blocked or has yet to burn, up to two of the next wider ones from
+ * there. */
 struct error *gas_take_levels(const struct simulation_case *input, int levels,
-                              struct cell_blocks *cells)
+                              struct cell_blocks *cells, int *lasting)
 {
     cells->levels = levels;
+    *lasting = 0;
     if (cells->levels < 2)
         return NULL;
     enum { AROUND_BODIES = 4 };
-    const int most = input->fine.count + input->boundaries.count + 1;
+    const int most = input->fine.count + input->boundaries.count + input->bodies.count + 1;
     cells->region = memory_allocate((size_t)most * sizeof *cells->region);
     if (!cells->region)
         return out_of_memory();
@@ -87,6 +89,10 @@ struct error *gas_take_levels(const struct simulation_case *input, int levels,
     for (int b = 0; b < input->boundaries.count; b++)
         if (case_boundary(input, b)->kind == BOUNDARY_RIGID_BODY)
             pin(cells, shape_bounds(&case_boundary(input, b)->part), AROUND_BODIES);
+    *lasting = cells->regions;
+    for (int b = 0; b < input->bodies.count; b++)
+        if (material_is_lit(case_material(input, case_body(input, b)->material_index)->material))
+            pin(cells, shape_bounds(&case_body(input, b)->shape), AROUND_BODIES);
     return NULL;
 }
 
@@ -109,7 +115,8 @@ double gas_part_of_cells(const struct simulation_case *input)
     }
     struct cell_block *list = NULL;
     int64_t count = 0;
-    struct error *error = gas_take_levels(input, (int)input->levels, &cells);
+    int lasting;
+    struct error *error = gas_take_levels(input, (int)input->levels, &cells, &lasting);
     if (!error)
         error = levels_list(&cells, NULL, 0, &list, &count);
     for (int64_t b = 0; b < count && !error; b++)

@@ -156,7 +156,8 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     cells->edge = simulation->problem->place.resolution;
     TRY(gas_take_levels(
         simulation->problem->input,
-        simulation->problem->place.is_part ? 1 : (int)simulation->problem->input->levels, cells));
+        simulation->problem->place.is_part ? 1 : (int)simulation->problem->input->levels, cells,
+        &gas->lasting));
     cells->ranks = simulation->ranks;
     cells->partition = &simulation->partition;
     cells->threads = simulation->threads;
@@ -335,7 +336,6 @@ static void pull(const struct gas *gas, struct simulation *simulation, double dt
 {
     const struct cell_blocks *cells = gas->cells;
     const double *g = simulation->problem->gravity;
-    const double volume = pow(cells->edge, simulation->problem->dimension);
 #pragma omp parallel num_threads(simulation->threads)
     {
         struct ledger own = {0};
@@ -351,8 +351,7 @@ static void pull(const struct gas *gas, struct simulation *simulation, double dt
                 *momentum += impulse[axis];
             }
             gas->u[GAS_ENERGY][i] += work;
-            const double size =
-                gas_cell_volume(volume, cells->edge, cells->position[i][0], gas->round);
+            const double size = gas_volume_of(gas, i);
             ledger_book(&own, LEDGER_GRAVITY, 0.0,
                         vec3_make(size * impulse[0], size * impulse[1], size * impulse[2]),
                         vector_at(cells->position[i]), size * work);

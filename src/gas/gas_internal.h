@@ -29,7 +29,7 @@ struct gas_seam_end {
     int32_t block, beside[4];
     int side, besides;
     bool swept;
-    double flux[STRIP_ROWS][GAS_NUMBERS];
+    double flux[STRIP_ROWS][THROUGH_NUMBERS];
 };
 
 /* Of an axis. */
@@ -76,6 +76,7 @@ struct gas {
     struct cell_halo halo;
     uint64_t order; /* of the blocks when the strips were made */
     int32_t room;   /* cells for which `other` has room */
+    int lasting;    /* regions of fine cells that stay when all explosives have burnt */
     struct gas_block *block;
     int64_t block_capacity;
     bool *shocked;             /* of each block, found by a sweep */
@@ -120,9 +121,10 @@ void gas_refuse(const struct simulation *simulation, const struct gas_parameters
  * of its bodies. ERROR_INPUT: a face does not lie on a plane of the grid. */
 struct error *gas_find_domain(const struct simulation *simulation, struct cell_blocks *cells);
 
-/* So many LEVELS, and the regions of the finest that a case asks for, into CELLS. */
+/* So many LEVELS, and the regions of the finest that a case asks for, into CELLS. The first
+ * *LASTING of them stay when all explosives have burnt. */
 struct error *gas_take_levels(const struct simulation_case *input, int levels,
-                              struct cell_blocks *cells);
+                              struct cell_blocks *cells, int *lasting);
 
 /* The cells at the start, before waves ask for finer ones, over those of one level; 1 where a case
  * is wrong. */
@@ -205,6 +207,17 @@ bool gas_match_seams(const struct gas *gas, int axis, double dt, int threads);
 struct error *gas_ask_levels(struct gas *gas, int threads, struct cell_block **list, int64_t *count,
                              bool *changed);
 struct error *gas_regrid(struct gas *gas, struct simulation *simulation);
+
+/* The volume of cell I, per radian or steradian where x is a radius. */
+BOLIDE_INLINE double gas_volume_of(const struct gas *gas, int32_t i)
+{
+    const struct cell_blocks *cells = gas->cells;
+    const double edge = cells->size ? cells->size[i] : cells->edge,
+                 volume = cells->dimension == 1   ? edge
+                          : cells->dimension == 2 ? edge * edge
+                                                  : edge * edge * edge;
+    return gas_cell_volume(volume, edge, cells->position[i][0], gas->round);
+}
 
 /* The mean of PARTS numbers, a power of two, which it overwrites; of equal ones to the bit. */
 BOLIDE_INLINE double gas_mean_of_parts(double *part, int parts)

@@ -25,6 +25,9 @@ static const double MIXTURE_NONE[2] = {1e-14, 1e-18};
  * hold. */
 static const double MIXTURE_TRACE = 1e-8;
 
+/* Below this one a cell says nothing of a material's density to its neighbours. */
+static const double MIXTURE_COUNTS = 1e-3;
+
 /* A material of a mixture at a density: its weight alpha xi, p_0 and what its sound speed follows
  * from. */
 struct mixture_part {

@@ -210,10 +210,8 @@ static void refuse_levels(const struct simulation *simulation,
         text = "several levels of cells need the method muscl-hancock";
     else if (simulation->ranks->size > 1)
         text = "several levels of cells run on one rank";
-    else if (material[0] != material[1])
-        text = "with several levels of cells there is one material";
-    else if (!eos_traits(&of[material[0]].eos).gas || material_is_lit(&of[material[0]]))
-        text = "with several levels of cells the material is a gas that does not burn";
+    else if (!eos_traits(&of[material[0]].eos).gas || !eos_traits(&of[material[1]].eos).gas)
+        text = "several levels of cells hold gases, no liquids";
     else if (geometry_power(input->geometry) > 0)
         text = "with several levels of cells x is no radius";
     else if (problem_has_gravity(simulation->problem))

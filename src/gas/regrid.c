@@ -5,14 +5,13 @@
  * The measure is that of R. Löhner, Comput. Methods Appl. Mech. Eng. 61 (1987) 323, a second
  * difference over first ones. Small waves do not count.
  *
- * Parts of a coarse cell get its conserved numbers with limited slopes, a coarse cell the mean of
- * its parts: mass, momentum and energy stay. */
+ * Parts of a coarse cell get its conserved numbers with limited slopes, and a coarse cell the mean
+ * of its parts: masses, momentum and energy stay (inner.h). */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "gas/gas_internal.h"
-#include "gas/states.h"
+#include "gas/inner.h"
 #include "grid/levels.h"
 #include "parallel/block.h"
 
@@ -190,25 +189,28 @@ struct transfer {
     const struct cell_blocks *from, *to;
     const double *was_open; /* NULL: all cells are */
     double *open;
-    const double *old[GAS_NUMBERS + 1]; /* conserved ones, shocks */
-    double *new[GAS_NUMBERS + 1];
+    const struct gas *gas;
+    const double *old[GAS_FIELDS]; /* but `open` */
+    double *new[GAS_FIELDS];
 };
 
 static void copy_cell(const struct transfer *t, int32_t from, int32_t to)
 {
+    const struct gas_layout *layout = &t->gas->layout;
     t->to->body[to] = t->from->body[from];
     t->to->material[to] = t->from->material[from];
     if (t->open)
         t->open[to] = t->was_open[from];
-    for (int n = 0; n <= GAS_SHOCK; n++)
-        t->new[n][to] = t->old[n][from];
+    for (int n = 0; n < layout->fields; n++)
+        if (n != layout->open)
+            t->new[n][to] = t->old[n][from];
 }
 
 static void merge_cells(const struct transfer *t, const struct cell_block *old, const int64_t at[3],
                         int32_t to)
 {
     const int dimension = t->from->dimension, parts = 1 << dimension;
-    double of[GAS_NUMBERS][8];
+    double of[GAS_FIELDS][8];
     int shock = 0;
     for (int k = parts - 1; k >= 0; k--) {
         int64_t part[3] = {0, 0, 0};
@@ -216,55 +218,41 @@ static void merge_cells(const struct transfer *t, const struct cell_block *old, 
             part[axis] = 2 * at[axis] + (k >> axis & 1);
         const int32_t i = cell_index_in(old, part);
         copy_cell(t, i, to);
-        for (int n = 0; n < GAS_NUMBERS; n++)
+        for (int n = 0; n < t->gas->layout.written; n++)
             of[n][k] = t->old[n][i];
         shock |= (int)t->old[GAS_SHOCK][i];
     }
-    for (int n = 0; n < GAS_NUMBERS; n++)
+    for (int n = 0; n < t->gas->layout.written; n++)
         t->new[n][to] = gas_mean_of_parts(of[n], parts);
     t->new[GAS_SHOCK][to] = shock;
 }
 
-static double heat_of(const double u[GAS_NUMBERS])
-{
-    return u[GAS_ENERGY] - 0.5 *
-                               (square(u[GAS_MOMENTUM]) + square(u[GAS_MOMENTUM + 1]) +
-                                square(u[GAS_MOMENTUM + 2])) /
-                               u[GAS_DENSITY];
-}
-
-/* Divides cell AT of OLD into its parts in NEW: with slopes, or without if one would lose its
- * heat. */
+/* Divides cell AT of OLD into its parts in NEW; neighbours in OLD tell how it changes. */
 static void divide_cell(const struct transfer *t, const struct cell_block *old, const int64_t at[3],
                         const struct cell_block *new)
 {
-    const int dimension = t->from->dimension, parts = 1 << dimension;
+    const int dimension = t->from->dimension, written = t->gas->layout.written;
     const int32_t i = cell_index_in(old, at);
-    double slope[3][GAS_NUMBERS] = {{0.0}}, part[8][GAS_NUMBERS], mean[GAS_NUMBERS];
-    for (int axis = 0; axis < dimension; axis++) {
-        const int32_t stride = cell_stride(old, axis);
-        const int64_t c = at[axis] - old->corner[axis];
-        for (int n = 0; n < GAS_NUMBERS && c > 0 && c < old->count[axis] - 1; n++)
-            slope[axis][n] = gas_lesser(t->old[n][i] - t->old[n][i - stride],
-                                        t->old[n][i + stride] - t->old[n][i]);
+    double number[7][GAS_FIELDS] = {{0.0}}, part[8][GAS_FIELDS];
+    const double *beside[3][2] = {{NULL}};
+    for (int n = 0; n < written; n++)
+        number[0][n] = t->old[n][i];
+    for (int k = 0; k < 2 * dimension; k++) {
+        const int64_t c = at[k / 2] - old->corner[k / 2];
+        if (c == (k % 2 ? old->count[k / 2] - 1 : 0))
+            continue;
+        for (int n = 0; n < written; n++)
+            number[1 + k][n] = t->old[n][i + (k % 2 ? 1 : -1) * cell_stride(old, k / 2)];
+        beside[k / 2][k % 2] = number[1 + k];
     }
-    for (int n = 0; n < GAS_NUMBERS; n++)
-        mean[n] = t->old[n][i];
-    bool holds = true;
-    for (int k = 0; k < parts; k++) {
-        memcpy(part[k], mean, sizeof mean);
-        for (int axis = 0; axis < dimension; axis++)
-            for (int n = 0; n < GAS_NUMBERS; n++)
-                part[k][n] += (k >> axis & 1 ? 0.25 : -0.25) * slope[axis][n];
-        holds &= heat_of(part[k]) > GAS_LEAST * heat_of(mean);
-    }
-    for (int k = 0; k < parts; k++) {
+    gas_divide(t->gas, number[0], beside, dimension, part);
+    for (int k = 0; k < 1 << dimension; k++) {
         int64_t to[3] = {0, 0, 0};
         for (int axis = 0; axis < dimension; axis++)
             to[axis] = 2 * at[axis] + (k >> axis & 1);
         const int32_t j = cell_index_in(new, to);
         copy_cell(t, i, j);
-        for (int n = 0; n < GAS_NUMBERS && holds; n++)
+        for (int n = 0; n < written; n++)
             t->new[n][j] = part[k][n];
     }
 }
@@ -299,16 +287,14 @@ static void fill_block(const struct transfer *t, const struct cell_block *new)
 static struct error *move(struct gas *gas, struct cell_block *list, int64_t count, int threads)
 {
     struct cell_blocks *cells = gas->cells, old;
-    struct transfer t = {.from = &old, .to = cells, .was_open = gas->open};
-    for (int n = 0; n <= GAS_SHOCK; n++)
-        t.old[n] = gas->u[n];
+    struct transfer t = {.from = &old, .to = cells, .was_open = gas->open, .gas = gas};
+    memcpy(t.old, gas->u, sizeof t.old);
     struct error *error = cell_blocks_renew(cells, list, (int32_t)count, &old);
     gas->room = 0; /* sweeps have exchanged arrays of the old store with their own */
     if (!error) {
         gas_bind(gas, cells);
         t.open = gas->open;
-        for (int n = 0; n <= GAS_SHOCK; n++)
-            t.new[n] = gas->u[n];
+        memcpy(t.new, gas->u, sizeof t.new);
 #pragma omp parallel for schedule(static) num_threads(threads)
         for (int32_t b = 0; b < cells->blocks; b++)
             fill_block(&t, &cells->block[b]);
@@ -326,6 +312,8 @@ struct error *gas_regrid(struct gas *gas, struct simulation *simulation)
     if (gas->cells->levels < 2 || every == 0 || simulation->step == 0 ||
         simulation->step % every != 0)
         return NULL;
+    if (!gas->unburnt)
+        gas->cells->regions = gas->lasting;
     TRY(gas_ask_levels(gas, simulation->threads, &list, &count, &changed));
     if (!changed)
         return NULL;

@@ -43,8 +43,11 @@ struct gas_row {
     bool thaws;                   /* the second is never colder than 0 K, see mixture.h */
     double afterburnt[ROW_ROOM];  /* its mass per volume of the cell that has */
     bool watched;                 /* who sweeps wants to know */
-    double second_flux[ROW_ROOM]; /* what of its mass has passed through faces, where it does */
-    double burnt[ROW_ROOM];       /* the fraction burnt of an explosive, where some is not */
+    /* what of its mass, of its volume and of what has burnt has passed through faces, where it
+     * does, and the speed of the faces */
+    double second_flux[ROW_ROOM], volume_flux[ROW_ROOM], afterburnt_flux[ROW_ROOM],
+        face_speed[ROW_ROOM];
+    double burnt[ROW_ROOM]; /* the fraction burnt of an explosive, where some is not */
     double
         push[ROW_ROOM]; /* found along a radius: mean pressures in a sweep, Pa, times s r^(s-1) */
 };

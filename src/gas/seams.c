@@ -1,24 +1,19 @@
 /* Where levels of cells meet: what cells of one level see of the other, and fluxes that both have.
  *
  * A coarse cell beyond an end is the mean of the fine ones in its place. Fine cells beyond an end
- * are parts of a coarse one, which changes inside it by limited slopes of density, velocity and
- * energy of heat per volume. A contact at one pressure of an ideal gas changes only the first of
- * these, and none of the parts has less than a quarter of the least of its neighbours. Once all
- * strips are swept, coarse cells take the mean of the fluxes through the fine faces in place of
- * their own. */
+ * are parts of a coarse one, which changes inside it by limited slopes (inner.h): none of the parts
+ * has less than a quarter of the least density or pressure of its neighbours. Once all strips are
+ * swept, coarse cells take the mean of the fluxes through the fine faces in place of their own. The
+ * fraction of the second material, which changes by d alpha = -dt/h (V - alpha u), takes the means
+ * of both V, what flows of its volume, and u, the speed of the faces. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "gas/gas_internal.h"
+#include "gas/inner.h"
 #include "gas/states.h"
 #include "grid/levels.h"
 #include "parallel/block.h"
-
-/* Density, velocity, and energy of heat per volume. */
-struct inner {
-    double of[GAS_NUMBERS], shock;
-};
 
 /* The axes across a sweep, the lower first, and how many cells of the next finer level there are
  * beside one along them. */
@@ -63,92 +58,70 @@ static const struct cell_block *find(const struct cell_blocks *cells, int level,
     return cell_block_cover(cells, level, at);
 }
 
-/* The conserved numbers and the shocks of cell AT of LEVEL: its own, or the means of its parts.
- * False where it is outside the domain or a part of a wider cell. */
+/* The fields that sweeps write of cell AT of LEVEL: its own, or the means of its parts, which have
+ * the shocks of all of them. False where it is outside the domain or a part of a wider cell. */
 static bool take(const struct gas *gas, int level, const int64_t at[3],
-                 const struct cell_block *const likely[2], struct inner *to)
+                 const struct cell_block *const likely[2], double *number)
 {
     const struct cell_blocks *cells = gas->cells;
     const struct cell_block *block = find(cells, level, at, likely);
     if (!block || block->level > level)
         return false;
-    memset(to, 0, sizeof *to);
     if (block->level == level) {
         const int32_t i = cell_index_in(block, at);
-        for (int n = 0; n < GAS_NUMBERS; n++)
-            to->of[n] = gas->u[n][i];
-        to->shock = gas->u[GAS_SHOCK][i];
+        for (int n = 0; n < gas->layout.written; n++)
+            number[n] = gas->u[n][i];
         return true;
     }
     assert(block->level == level - 1);
     const int parts = 1 << cells->dimension;
-    double of[GAS_NUMBERS][8];
     int64_t first[3];
+    int32_t part[8] = {0};
     int shock = 0;
     change_level(cells->dimension, at, -1, first);
     for (int k = 0; k < parts; k++) {
-        const int64_t part[3] = {first[0] + (k & 1), first[1] + (k >> 1 & 1),
-                                 first[2] + (k >> 2 & 1)};
-        const int32_t i = cell_index_in(block, part);
-        for (int n = 0; n < GAS_NUMBERS; n++)
-            of[n][k] = gas->u[n][i];
-        shock |= (int)gas->u[GAS_SHOCK][i];
+        const int64_t place[3] = {first[0] + (k & 1), first[1] + (k >> 1 & 1),
+                                  first[2] + (k >> 2 & 1)};
+        part[k] = cell_index_in(block, place);
+        shock |= (int)gas->u[GAS_SHOCK][part[k]];
     }
-    for (int n = 0; n < GAS_NUMBERS; n++)
-        to->of[n] = gas_mean_of_parts(of[n], parts);
-    to->shock = shock;
+    for (int n = 0; n < gas->layout.written; n++) {
+        double of[8];
+        for (int k = 0; k < parts; k++)
+            of[k] = gas->u[n][part[k]];
+        number[n] = gas_mean_of_parts(of, parts);
+    }
+    number[GAS_SHOCK] = shock;
     return true;
 }
 
-static double kinetic_of(const double momentum[3], double density)
-{
-    return 0.5 * (square(momentum[0]) + square(momentum[1]) + square(momentum[2])) / density;
-}
-
-static void make_inner(struct inner *of)
-{
-    const double density = of->of[GAS_DENSITY];
-    of->of[GAS_ENERGY] -= kinetic_of(of->of + GAS_MOMENTUM, density);
-    for (int n = GAS_MOMENTUM; n < GAS_ENERGY; n++)
-        of->of[n] /= density;
-}
-
-static void make_conserved(double of[GAS_NUMBERS])
-{
-    for (int n = GAS_MOMENTUM; n < GAS_ENERGY; n++)
-        of[n] *= of[GAS_DENSITY];
-    of[GAS_ENERGY] += kinetic_of(of + GAS_MOMENTUM, of[GAS_DENSITY]);
-}
-
-/* How much the numbers of cell AT of LEVEL, which are MIDDLE, change within it along an axis. */
+/* How much the state MIDDLE of cell AT of LEVEL changes within it along an axis. */
 static void find_slope(const struct gas *gas, int level, const int64_t at[3], int axis,
-                       const struct cell_block *const likely[2], const struct inner *middle,
-                       double slope[GAS_NUMBERS])
+                       const struct cell_block *const likely[2], const struct gas_inner *middle,
+                       double slope[INNERS])
 {
-    struct inner beside[2];
+    struct gas_inner beside[2];
     bool known = true;
     for (int side = 0; side < 2 && known; side++) {
         int64_t to[3] = {at[0], at[1], at[2]};
+        double number[GAS_FIELDS];
         to[axis] += side ? 1 : -1;
-        known = take(gas, level, to, likely, &beside[side]);
+        known = take(gas, level, to, likely, number);
         if (known)
-            make_inner(&beside[side]);
+            beside[side] = gas_inner_of(gas, number);
     }
-    for (int n = 0; n < GAS_NUMBERS; n++)
-        slope[n] =
-            known ? gas_lesser(middle->of[n] - beside[0].of[n], beside[1].of[n] - middle->of[n])
-                  : 0.0;
+    memset(slope, 0, INNERS * sizeof *slope);
+    if (known)
+        gas_inner_slope(&beside[0], middle, &beside[1], slope);
 }
 
+/* No cell is blocked here, and none holds an explosive that has yet to burn. */
 static void put(const struct gas *gas, int axis, const struct cell_seam *seam, int row,
-                const double of[GAS_NUMBERS], double shock)
+                const double *number)
 {
-    const int dimension = gas->cells->dimension;
-    for (int n = 0; n < GAS_NUMBERS; n++)
-        cell_plane(&gas->halo, dimension, axis, seam->plane, n)[row] = of[n];
-    cell_plane(&gas->halo, dimension, axis, seam->plane, GAS_SHOCK)[row] = shock;
-    if (gas->layout.open >= 0) /* no cell is blocked here */
-        cell_plane(&gas->halo, dimension, axis, seam->plane, gas->layout.open)[row] = 1.0;
+    for (int n = 0; n < gas->layout.fields; n++)
+        cell_plane(&gas->halo, gas->cells->dimension, axis, seam->plane, n)[row] =
+            n < gas->layout.written ? number[n] : 1.0;
 }
 
 /* Puts the parts, beyond a fine block, of the coarse cell one of which is AT, in row I, J. */
@@ -157,27 +130,23 @@ static void put_parts(const struct gas *gas, int axis, const struct cell_seam *s
 {
     const int dimension = gas->cells->dimension, level = likely[0]->level + 1;
     const struct crosswise across = crosswise_of(dimension, axis);
-    struct inner middle;
-    double slope[3][GAS_NUMBERS];
+    double slope[3][INNERS], number[GAS_FIELDS];
     int64_t whole[3];
     change_level(dimension, at, 1, whole);
-    take(gas, level, whole, likely, &middle);
-    make_inner(&middle);
+    take(gas, level, whole, likely, number);
+    const struct gas_inner middle = gas_inner_of(gas, number);
     for (int k = 0; k < dimension; k++)
         find_slope(gas, level, whole, k, likely, &middle, slope[k]);
     for (int second = 0; second < across.seconds; second++)
         for (int first = 0; first < across.firsts; first++) {
             int64_t part[3] = {at[0], at[1], at[2]};
-            double of[GAS_NUMBERS];
+            int side[3];
             part[across.first] += first;
             part[across.second] += second;
-            memcpy(of, middle.of, sizeof of);
-            for (int k = 0; k < dimension; k++)
-                for (int n = 0; n < GAS_NUMBERS; n++)
-                    of[n] += (part[k] & 1 ? 0.25 : -0.25) * slope[k][n];
-            make_conserved(of);
-            put(gas, axis, seam, i + first + (j + second) * likely[0]->count[across.first], of,
-                middle.shock);
+            for (int k = 0; k < 3; k++)
+                side[k] = (int)(part[k] & 1);
+            gas_inner_part(gas, &middle, slope, dimension, side, number);
+            put(gas, axis, seam, i + first + (j + second) * likely[0]->count[across.first], number);
         }
 }
 
@@ -193,13 +162,13 @@ static void fill_seam(const struct gas *gas, int axis, const struct cell_seam *s
     for (int j = 0; j < own->count[across.second]; j += coarse ? across.seconds : 1)
         for (int i = 0; i < own->count[across.first]; i += coarse ? across.firsts : 1) {
             const struct cell_block *const likely[2] = {own, source};
-            struct inner mean;
+            double mean[GAS_FIELDS];
             at[across.first] = own->corner[across.first] + i;
             at[across.second] = own->corner[across.second] + j;
             if (coarse)
                 put_parts(gas, axis, seam, likely, at, i, j);
-            else if (take(gas, own->level, at, likely, &mean))
-                put(gas, axis, seam, i + j * own->count[across.first], mean.of, mean.shock);
+            else if (take(gas, own->level, at, likely, mean))
+                put(gas, axis, seam, i + j * own->count[across.first], mean);
         }
 }
 
@@ -301,12 +270,12 @@ void gas_keep_fluxes(const struct gas *gas, int axis, const struct gas_strip *st
 /* The mean of what flows through the fine faces beside row I, J of END; false where none of it
  * differs from what flows through END. */
 static bool mean_flux(const struct gas *gas, int axis, const struct gas_seam_end *end, int i, int j,
-                      double mean[GAS_NUMBERS])
+                      double mean[THROUGH_NUMBERS])
 {
     const struct cell_blocks *cells = gas->cells;
     const struct cell_block *own = &cells->block[end->block];
     const struct crosswise across = crosswise_of(cells->dimension, axis);
-    const int faces = across.firsts * across.seconds;
+    const int faces = across.firsts * across.seconds, numbers = gas_numbers_through(&gas->layout);
     int64_t at[3] = {own->corner[0], own->corner[1], own->corner[2]}, part[3];
     at[axis] += end->side ? own->count[axis] : -1;
     at[across.first] += i;
@@ -319,32 +288,54 @@ static bool mean_flux(const struct gas *gas, int axis, const struct gas_seam_end
             beside = &cells->block[end->beside[k]];
     const struct gas_seam_end *other =
         gas_seam_end(gas, axis, (int32_t)(beside - cells->block), 1 - end->side);
-    memset(mean, 0, GAS_NUMBERS * sizeof *mean);
+    memset(mean, 0, THROUGH_NUMBERS * sizeof *mean);
     for (int k = 0; k < faces && other->swept; k++) {
         const int row =
             (int)(part[across.first] - beside->corner[across.first]) + k % across.firsts +
             ((int)(part[across.second] - beside->corner[across.second]) + k / across.firsts) *
                 beside->count[across.first];
-        for (int n = 0; n < GAS_NUMBERS; n++)
+        for (int n = 0; n < numbers; n++)
             mean[n] += other->flux[row][n];
     }
-    for (int n = 0; n < GAS_NUMBERS; n++)
+    for (int n = 0; n < numbers; n++)
         mean[n] /= faces;
     return other->swept;
 }
 
-/* Whether what a sweep has left of cell I is hardly anything. */
-static bool is_spent(const struct gas *gas, int32_t i)
+/* Whether what a sweep leaves of a cell, AFTER, is hardly anything. */
+static bool is_spent(const struct gas *gas, const double *before, const double *after)
 {
-    struct inner before, after;
-    for (int n = 0; n < GAS_NUMBERS; n++) {
-        before.of[n] = gas->u[n][i];
-        after.of[n] = gas->other[n][i];
+    const double pressure = gas_pressure_of(gas, before);
+    return !(after[GAS_DENSITY] > 0.5 * GAS_LEAST * before[GAS_DENSITY] &&
+             gas_pressure_of(gas, after) > 0.5 * GAS_LEAST * minimum(pressure, fabs(pressure)));
+}
+
+/* Cell I of a block takes the fluxes MEAN in place of FLUX, where R is dt/h with the sign of its
+ * side. Whether hardly anything is left of it. */
+static bool match_cell(const struct gas *gas, int32_t i, const double *flux, const double *mean,
+                       double r)
+{
+    double before[GAS_FIELDS], after[GAS_FIELDS], change[THROUGH_NUMBERS] = {0.0};
+    for (int n = 0; n < gas->layout.written; n++) {
+        before[n] = gas->u[n][i];
+        after[n] = gas->other[n][i];
     }
-    make_inner(&before);
-    make_inner(&after);
-    return !(after.of[GAS_DENSITY] > 0.5 * GAS_LEAST * before.of[GAS_DENSITY] &&
-             after.of[GAS_ENERGY] > 0.5 * GAS_LEAST * before.of[GAS_ENERGY]);
+    for (int n = 0; n < gas_numbers_through(&gas->layout); n++)
+        change[n] = r * (mean[n] - flux[n]);
+    for (int n = 0; n < GAS_NUMBERS; n++)
+        after[n] += change[n];
+    if (gas->layout.two) {
+        after[GAS_SECOND] += change[THROUGH_SECOND];
+        after[GAS_FRACTION] +=
+            change[THROUGH_VOLUME] - before[GAS_FRACTION] * change[THROUGH_SPEED];
+        if (gas->layout.afterburns)
+            after[GAS_AFTERBURNT] =
+                maximum(after[GAS_AFTERBURNT] + change[THROUGH_AFTERBURNT], 0.0);
+        gas_settle(gas, after);
+    }
+    for (int n = 0; n < gas->layout.written; n++)
+        gas->other[n][i] = after[n];
+    return is_spent(gas, before, after);
 }
 
 static bool match_end(const struct gas *gas, int axis, const struct gas_seam_end *end, double dt)
@@ -355,18 +346,14 @@ static bool match_end(const struct gas *gas, int axis, const struct gas_seam_end
     bool spent = false;
     for (int j = 0; j < own->count[across.second]; j++)
         for (int i = 0; i < own->count[across.first]; i++) {
-            const double *flux = end->flux[i + j * own->count[across.first]];
-            double mean[GAS_NUMBERS];
+            double mean[THROUGH_NUMBERS];
             int64_t at[3] = {own->corner[0], own->corner[1], own->corner[2]};
             at[axis] += end->side ? own->count[axis] - 1 : 0;
             at[across.first] += i;
             at[across.second] += j;
-            if (!mean_flux(gas, axis, end, i, j, mean))
-                continue;
-            const int32_t cell = cell_index_in(own, at);
-            for (int n = 0; n < GAS_NUMBERS; n++)
-                gas->other[n][cell] += r * (mean[n] - flux[n]);
-            spent |= is_spent(gas, cell);
+            if (mean_flux(gas, axis, end, i, j, mean))
+                spent |= match_cell(gas, cell_index_in(own, at),
+                                    end->flux[i + j * own->count[across.first]], mean, r);
         }
     return spent;
 }

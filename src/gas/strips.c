@@ -328,6 +328,7 @@ static struct error *sweep_once(struct gas *gas, struct simulation *simulation, 
                               .riemann = gas->riemann,
                               .scheme = gas->scheme,
                               .cut = gas->cut,
+                              .joins = cells->levels > 1,
                               .dt = dt};
     if (!gas->second_order) /* Lax-Wendroff takes explosives for burnt */
         sweep.closure.lit = NULL;

@@ -75,6 +75,7 @@ struct gas_sweep {
     int riemann;       /* enum gas_riemann */
     struct lax_wendroff scheme;
     const struct gas_cut *cut; /* NULL: none */
+    bool joins;                /* there are levels, which meet at ends of strips */
     double dt;
 };
 
@@ -92,12 +93,27 @@ struct gas_strip {
 
 enum { STRIP_ROWS = 64, STRIP_BLOCKS = 8, STRIP_OBSTACLES = STRIP_ROWS * (ROW_CELLS + 2) };
 
+/* Beside fluxes of conserved numbers, where levels meet in two materials: those of the second's
+ * mass and volume, the speed of the face, and of what has burnt in the air. */
+enum {
+    THROUGH_SECOND = GAS_NUMBERS,
+    THROUGH_VOLUME,
+    THROUGH_SPEED,
+    THROUGH_AFTERBURNT,
+    THROUGH_NUMBERS
+};
+
+BOLIDE_INLINE int gas_numbers_through(const struct gas_layout *layout)
+{
+    return layout->afterburns ? THROUGH_NUMBERS : layout->two ? THROUGH_AFTERBURNT : GAS_NUMBERS;
+}
+
 /* What leaves a strip through its ends, per area and time: of each row, the lower of the two
  * other axes first; and through the faces of blocked cells, whose cell is the one on its low
  * side, counted from the strip's first, and whose flux counts for the gas on its SIDE, -1
  * below, 1 above. */
 struct gas_through {
-    double end[2][STRIP_ROWS][GAS_NUMBERS];
+    double end[2][STRIP_ROWS][THROUGH_NUMBERS];
     double push[STRIP_ROWS][STRIP_BLOCKS]; /* along a radius: mean pressures, summed over a block */
     bool spent;                            /* some cell is left with hardly any density or energy */
     int obstacles;

@@ -178,9 +178,9 @@ static void sweep_runs(const struct gather *g, double (*all)[ROW_ROOM], int cell
             for (int at = from; at < to && row->round; at++)
                 push[at] = row->push[at - from + ROW_GHOSTS];
             if (from == begin)
-                note_end(&flux, 0, through->end[0][number]);
+                note_end(row, &flux, 0, through->end[0][number]);
             if (to == end)
-                note_end(&flux, row->cells, through->end[1][number]);
+                note_end(row, &flux, row->cells, through->end[1][number]);
             if (closed_low && from == k)
                 note_obstacle(&flux, 0, number, from - begin, 1, through);
             if (closed_high && to == last + 1)
@@ -206,7 +206,8 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
     const struct gas_layout *layout = sweep->layout;
     const struct cell_block *block = &sweep->cells->block[strip->block[0]];
     const struct across across = across_of(sweep->axis);
-    const int rows = block->count[across.first], columns = block->count[across.second];
+    const int rows = block->count[across.first], columns = block->count[across.second],
+              through_numbers = sweep->joins ? gas_numbers_through(layout) : GAS_NUMBERS;
     struct gas_row row;
     row.closure = sweep->closure;
     row.riemann = sweep->riemann;
@@ -214,7 +215,7 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
     row.axis = sweep->axis;
     row.round = sweep->round;
     row.shocked = true;
-    row.watched = sweep->cut != NULL;
+    row.watched = sweep->cut || sweep->joins;
     row.thaws = sweep->thaws;
     row.spent = false;
     row.first = (double)block->corner[sweep->axis];
@@ -223,7 +224,7 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
         for (int i = 0; i < rows; i++) {
             if (strip->sleeps && i + j > 0) {
                 for (int side = 0; side < 2; side++)
-                    for (int n = 0; n < GAS_NUMBERS; n++)
+                    for (int n = 0; n < through_numbers; n++)
                         through->end[side][i + j * rows][n] = through->end[side][0][n];
                 for (int s = 0; s < strip->count && sweep->round; s++)
                     through->push[i + j * rows][s] = through->push[0][s];
@@ -252,7 +253,7 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
                 load_row(&g, layout->gamma, layout->gamma + 1, &row.gamma);
             if (layout->blocked) {
                 if (any_blocked(all[layout->open], cells, sweep->halo->depth)) {
-                    for (int n = 0; n < GAS_NUMBERS; n++)
+                    for (int n = 0; n < through_numbers; n++)
                         through->end[0][number][n] = through->end[1][number][n] = 0.0;
                     sweep_runs(&g, all, cells, number, &row, through);
                     continue;
@@ -265,8 +266,8 @@ ISA_KERNEL(void, gas_sweep_strip, const struct gas_sweep *sweep, const struct ga
                 note_cut(&g, &row, &flux, 0);
             store_row(&g, &row, 0);
             note_push(&g, row.push, number, through);
-            note_end(&flux, 0, through->end[0][number]);
-            note_end(&flux, cells, through->end[1][number]);
+            note_end(&row, &flux, 0, through->end[0][number]);
+            note_end(&row, &flux, cells, through->end[1][number]);
         }
     through->spent = row.spent;
 }

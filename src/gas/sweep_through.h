@@ -25,10 +25,24 @@ struct gather {
     int rows; /* along the lower axis */
 };
 
-BOLIDE_INLINE void note_end(const struct gas_numbers *flux, int face, double *out)
+BOLIDE_INLINE void note_flux(const struct gas_numbers *flux, int face, double *out)
 {
     for (int n = 0; n < GAS_NUMBERS; n++)
         out[n] = flux->of[n][face + ROW_GHOSTS];
+}
+
+/* What has passed through FACE of a row at an end of its strip. */
+BOLIDE_INLINE void note_end(const struct gas_row *row, const struct gas_numbers *flux, int face,
+                            double *out)
+{
+    note_flux(flux, face, out);
+    if (!row->watched || !row->closure.other)
+        return;
+    out[THROUGH_SECOND] = row->second_flux[face + ROW_GHOSTS];
+    out[THROUGH_VOLUME] = row->volume_flux[face + ROW_GHOSTS];
+    out[THROUGH_SPEED] = row->face_speed[face + ROW_GHOSTS];
+    if (row->afterburns)
+        out[THROUGH_AFTERBURNT] = row->afterburnt_flux[face + ROW_GHOSTS];
 }
 
 /* The cells BEGIN .. END - 1 of a row, counted from its first, that lie in the cut. */
@@ -96,7 +110,7 @@ BOLIDE_INLINE void note_obstacle(const struct gas_numbers *flux, int face, int r
     through->obstacle[through->obstacles].row = row;
     through->obstacle[through->obstacles].face = at;
     through->obstacle[through->obstacles].side = side;
-    note_end(flux, face, through->obstacle[through->obstacles].flux);
+    note_flux(flux, face, through->obstacle[through->obstacles].flux);
     through->obstacles++;
 }
 

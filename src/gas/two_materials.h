@@ -15,9 +15,6 @@
 
 #include "gas/part_limits.h"
 
-/* Below this fraction of volume a cell says nothing of a material's density to its neighbours. */
-static const double PART_COUNTS = 1e-3;
-
 /* Less than this fraction of volume is next to nothing. */
 static const double PART_LITTLE = 1e-6;
 
@@ -81,7 +78,7 @@ BOLIDE_INLINE double parts_density(const struct gas_row *row, const struct row_p
                                    int k, double here)
 {
     const double second = row->part[PART_FRACTION][k], fraction = m ? second : 1.0 - second;
-    return fraction >= PART_COUNTS ? parts->density[m][k] : here;
+    return fraction >= MIXTURE_COUNTS ? parts->density[m][k] : here;
 }
 
 /* Density of material M on the low and high face of cell K, half a step on. */
@@ -244,6 +241,8 @@ static inline void row_carry_afterburnt(struct gas_row *row, const double *mass,
         const int from = mass[k] >= 0.0 ? k - 1 : k;
         flow[k] = own[from] > 0.0 ? mass[k] * minimum(row->afterburnt[from] / own[from], 1.0) : 0.0;
     }
+    FOR_ROW (k, 0, row->watched ? row->cells : -1)
+        row->afterburnt_flux[k] = flow[k];
     FOR_ROW (k, 0, row->cells - 1)
         row->afterburnt[k] =
             maximum(row->afterburnt[k] -
@@ -307,8 +306,11 @@ APART void parts_advance(struct gas_row *row, struct row_parts *parts,
                 parts->flux[PART_MASS][k] = flux->of[GAS_DENSITY][k];
         row_carry_afterburnt(row, parts->flux[PART_MASS], row->part[PART_MASS], r);
     }
-    FOR_ROW (k, 0, row->watched ? row->cells : -1)
+    FOR_ROW (k, 0, row->watched ? row->cells : -1) {
         row->second_flux[k] = parts->flux[PART_MASS][k];
+        row->volume_flux[k] = parts->flux[PART_FRACTION][k];
+        row->face_speed[k] = parts->speed[k];
+    }
     parts_move(row, parts, r);
     parts_clean(row);
     if (row->thaws)
@@ -325,8 +327,11 @@ static inline void parts_follow(struct gas_row *row, bool second, double r,
 {
     if (row->afterburns && second)
         row_carry_afterburnt(row, flux->of[GAS_DENSITY], row->part[PART_MASS], r);
-    FOR_ROW (k, 0, row->watched ? row->cells : -1)
+    FOR_ROW (k, 0, row->watched ? row->cells : -1) {
+        row->afterburnt_flux[k] = second && row->afterburns ? row->afterburnt_flux[k] : 0.0;
         row->second_flux[k] = second ? flux->of[GAS_DENSITY][k] : 0.0;
+        row->volume_flux[k] = row->face_speed[k] = 0.0; /* of no account: the fraction stays */
+    }
     FOR_ROW (k, 0, row->cells - 1)
         row->part[PART_MASS][k] = second ? row->u.of[GAS_DENSITY][k] : 0.0;
 }
