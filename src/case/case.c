@@ -224,12 +224,13 @@ void case_free(struct simulation_case *input)
     free(input);
 }
 
-/* The keys that case_write writes. It leaves out the convergence study, whose values may use names
- * that no longer exist, and the fits and repetitions, which need a sweep. */
+/* The keys that case_write writes. It leaves out the convergence study and the calibration, which
+ * may use names that no longer exist, and the fits and repetitions, which need a sweep. */
 static void written_table(struct parameter *table)
 {
     for (const struct parameter *p = case_table; !PARAMETER_IS_END(p); p++)
         if (p->offset != offsetof(struct simulation_case, convergence) &&
+            p->offset != offsetof(struct simulation_case, calibrate) &&
             p->offset != offsetof(struct simulation_case, fits) &&
             p->offset != offsetof(struct simulation_case, repetitions))
             *table++ = *p;

@@ -235,6 +235,36 @@ struct convergence_input {
     struct named_map order;    /* struct order_input, by check */
 };
 
+/* calibrate: keys: A: {from: 300 MPa, to: 500 MPa}: what is fitted, a name of let or a path. */
+enum { CALIBRATED_KEYS_MAX = 12 };
+enum key_scale { KEY_LINEAR, KEY_LOG };
+struct calibrated_key {
+    struct quantity from, to, start; /* start NAN: the middle */
+    int scale;                       /* enum key_scale */
+};
+
+/* calibrate: targets: NAME: {check: length, is: 0.75}: what it is fitted to: what a check measures,
+ * or a column of a probe over the time. */
+struct calibration_target {
+    char *check, *probe;         /* one of them; NULL: not given */
+    char *of;                    /* "case": the file name of one of `cases`; NULL: the case */
+    struct quantity is;          /* NAN: that of the check */
+    struct quantity deviation;   /* NAN: what the check allows */
+    char *field, *data;          /* of a probe: its column, and the measured table */
+    char *time, *value;          /* columns of that; NULL: the first and the second */
+    struct vector_value between; /* s; count 0: all times */
+    char *shift;                 /* a time, or "fit" */
+    double shift_time;           /* s, filled by case_read; NAN: fitted */
+};
+
+struct calibrate_input {
+    struct named_map keys;    /* struct calibrated_key; count 0: nothing is calibrated */
+    struct named_map targets; /* struct calibration_target */
+    struct name_list cases;   /* files beside this case with the same keys */
+    int64_t runs;
+    double within;
+};
+
 /* sweep: {U0: [500 m/s, 1 km/s]}: one value that a run of the sweep, or of a study, takes. */
 struct sweep_value {
     int entry;        /* of the sweep, from 0; values of keys that change together share it */
@@ -287,6 +317,7 @@ struct simulation_case {
     char *repetitions;         /* a key of the sweep; NULL: none */
     struct named_map expected; /* "expected_warnings", struct expected_warning_input */
     struct convergence_input convergence;
+    struct calibrate_input calibrate;
     int sweep_runs;   /* filled by case_read: runs that a sweep asks for; 0: it has none */
     int sweep_values; /* of this run of it; 0: the case itself */
     struct sweep_value *sweep;
@@ -321,6 +352,11 @@ extern const struct parameter case_shaping_table[];
  * checked; every mistake comes in one ERROR_INPUT. */
 struct error *case_read(const char *path, const struct case_options *options,
                         const struct catalogue *catalogue, struct simulation_case **result);
+
+/* The path that KEY, a name of let or a path, is about, in fresh memory. ERROR_INPUT at the entry
+ * KEY of the map TOLD where it is neither. */
+struct error *case_find_key(const struct simulation_case *input, const char *told, const char *key,
+                            char **path);
 
 /* "U0=500_m_s": the folder of the run of a sweep that takes these COUNT values, and its name in the
  * record; of keys that change together the first alone, where the name would be long. NULL when
@@ -412,6 +448,15 @@ CASE_ITEM(fit, fits)
 CASE_ITEM(expected_warning, expected)
 CASE_ITEM(check, checks)
 #undef CASE_ITEM
+
+static inline struct calibrated_key *case_calibrated(const struct simulation_case *c, int index)
+{
+    return (struct calibrated_key *)c->calibrate.keys.items + index;
+}
+static inline struct calibration_target *case_target(const struct simulation_case *c, int index)
+{
+    return (struct calibration_target *)c->calibrate.targets.items + index;
+}
 
 /* The material of a body. */
 static inline const struct material *body_material(const struct simulation_case *c, int body)

@@ -485,6 +485,7 @@ struct error *case_check_meaning(struct simulation_case *input)
     check_map(&checking, "expected_warnings", &input->expected, check_expected);
     case_check_study(&checking);
     check_map(&checking, "convergence.order", &input->convergence.order, case_check_order);
+    case_check_calibrate(&checking);
     const bool sound = !checking.error && !document_is_wrong(input->document, "");
     for (int b = 0; b < input->boundaries.count && sound; b++) {
         struct boundary_input *boundary = case_boundary(input, b);

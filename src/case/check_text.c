@@ -84,6 +84,7 @@ static void check_names(struct checking *checking)
                 {"output.maps", &input->output.maps, true},
                 {"output.histograms", &input->output.histograms, true},
                 {"checks", &input->checks, false},
+                {"calibrate.targets", &input->calibrate.targets, false},
                 {"expected_warnings", &input->expected, false}};
     for (size_t k = 0; k < COUNT_OF(maps); k++) {
         checking->map = maps[k].key;

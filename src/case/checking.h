@@ -50,6 +50,8 @@ void case_check_fit(struct checking *checking, int index);
 void case_check_repetitions(struct checking *checking);
 void case_check_order(struct checking *checking, int index);
 void case_check_study(struct checking *checking);
+/* `calibrate` (calibrate.c). */
+void case_check_calibrate(struct checking *checking);
 
 /* Of what acts from outside (check_outside.c, boundary.c). */
 void case_check_domain(struct checking *checking);

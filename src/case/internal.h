@@ -3,6 +3,7 @@
 #define BOLIDE_CASE_INTERNAL_H
 
 #include "case/case.h"
+#include "document/nodes.h"
 
 /* The format that this program reads. */
 enum { CASE_FORMAT = 1 };
@@ -23,6 +24,7 @@ extern const struct parameter case_picture_table[];     /* struct picture_input 
 extern const struct parameter case_fit_table[];         /* struct fit_input */
 extern const struct parameter case_expected_table[];    /* struct expected_warning_input */
 extern const struct parameter case_convergence_table[]; /* struct convergence_input */
+extern const struct parameter case_calibrate_table[];   /* struct calibrate_input */
 
 /* Makes material->material, plain data, from what was read. */
 struct error *case_fill_material(struct material_input *material);
@@ -34,6 +36,11 @@ const struct node *case_swept_include(const struct document *document, int run, 
 /* Takes the sweep out of the document and tells its mistakes; puts the values of its run RUN, 1 to
  * sweep_runs, where they belong. 0: none of them. */
 struct error *case_take_sweep(struct simulation_case *input, int run);
+
+/* The path that KEY is about: a name of `let` before anything else. A mistake is told of TOLD at
+ * PLACE. */
+struct error *case_find_target(const struct document *document, const char *key, struct mark place,
+                               const char *told, char **path);
 
 /* Looks at what `convergence` varies and tells its mistakes. With OPTIONS->convergence its runs are
  * those of the sweep, and the value of the run that is asked for is put where it belongs. */

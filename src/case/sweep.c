@@ -21,9 +21,8 @@ static bool is_key_of_case(const char *key)
     return false;
 }
 
-/* The path that KEY is about: a name of `let` before anything else. Mistakes name TOLD at PLACE. */
-static struct error *find_target(const struct document *document, const char *key,
-                                 struct mark place, const char *told, char **path)
+struct error *case_find_target(const struct document *document, const char *key, struct mark place,
+                               const char *told, char **path)
 {
     const struct node *let = node_entry(document->root, let_key);
     bool named = let && node_entry(let, key);
@@ -124,7 +123,7 @@ static struct error *check_list(const struct document *document, const struct no
     snprintf(told, sizeof told, "%s.%s", sweep_key, list->key);
     struct error *error = is_include(document, list->key)
                               ? NULL
-                              : find_target(document, list->key, list->key_place, told, &path);
+                              : case_find_target(document, list->key, list->key_place, told, &path);
     free(path);
     return error_join(error, check_values(list, told));
 }
@@ -179,7 +178,7 @@ static struct error *take_choice(struct simulation_case *input, int entry, const
     struct error *error =
         is_include(input->document, list->key)
             ? NULL
-            : find_target(input->document, list->key, list->key_place, sweep_key, &path);
+            : case_find_target(input->document, list->key, list->key_place, sweep_key, &path);
     if (!error)
         error = take_value(input, entry, list->key, path, list->child[choice]);
     free(path);
@@ -272,7 +271,7 @@ static struct error *check_varied(const struct document *document, const struct 
 {
     const struct node *values = varied->values;
     struct error *error =
-        find_target(document, varied->key, varied->place, "convergence.vary", path);
+        case_find_target(document, varied->key, varied->place, "convergence.vary", path);
     if (values && (values->kind == NODE_SCALAR || (values->kind == NODE_LIST && values->count < 2)))
         return error_join(error, place_error(node_place(values), "convergence.values",
                                              "expected a list of at least two values"));

@@ -250,5 +250,8 @@ const struct parameter case_table[] = {
     PARAMETER(TABLE, struct simulation_case, convergence, OPTIONAL,
               "the study that `bolide verify --convergence` makes of the case",
               .table = case_convergence_table, .change = CHANGE_FREELY),
+    PARAMETER(TABLE, struct simulation_case, calibrate, OPTIONAL,
+              "the keys that `bolide calibrate` fits, and what to", .table = case_calibrate_table,
+              .change = CHANGE_FREELY),
     PARAMETER_END,
 };

@@ -45,6 +45,7 @@ enum command_bit {
     COMMAND_VIEW = 8192,
     COMMAND_FILM = 16384,
     COMMAND_COMPARE = 32768,
+    COMMAND_CALIBRATE = 65536,
     COMMAND_HELP = 16
 };
 
@@ -61,6 +62,7 @@ extern const int command_count;
 int command_run(const struct cli_options *options);
 int command_check(const struct cli_options *options);
 int command_verify(const struct cli_options *options);
+int command_calibrate(const struct cli_options *options);
 int command_exact(const struct cli_options *options);
 int command_report(const struct cli_options *options);
 int command_picture(const struct cli_options *options);

@@ -112,11 +112,12 @@ static const struct answer answers[] = {
      "and slab, and checks with `minus` and `relative` compare them. There is no homogenised\n"
      "model of a mixture.",
      "mixtures.md"},
-    {" calibrate calibration optimise optimize fit fitting taylor taylor.test taylor.bar ",
-     "There is no optimiser. Run a sweep of the constant, and interpolate in sweep.csv; `fits`\n"
-     "puts lines and power laws through the runs of a sweep. `bolide search` bisects one key on\n"
-     "whether a check passes.",
-     "tasks/strength-calibration.md"},
+    {" calibration optimise optimize optimisation optimization optimiser inverse least.squares "
+     "levenberg.marquardt parameter.identification fit fitting taylor taylor.test taylor.bar ",
+     "`calibrate` of a case names keys and measured values; `bolide calibrate` fits them and\n"
+     "tells which keys the measurements do not tell apart. `bolide search` bisects one key on\n"
+     "whether a check passes; `fits` puts lines and power laws through the runs of a sweep.",
+     "tasks/calibrate.md"},
     {" statistic seed repetition confidence error.bar error.bars standard.deviation ensemble "
      "monte.carlo random random.grains ",
      "Sweep over the seed of a packing and name it in `repetitions`: the sweep then has means "

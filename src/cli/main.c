@@ -15,6 +15,8 @@ const struct command commands[] = {
      "run cases and print all their checks as one table", 0, 1000, command_verify},
     {COMMAND_SEARCH, "search", "CASE",
      "find by bisection the value of a key at which a check begins to fail", 1, 1, command_search},
+    {COMMAND_CALIBRATE, "calibrate", "CASE",
+     "fit keys of a case to measured values, as its `calibrate` says", 1, 1, command_calibrate},
     {COMMAND_EXACT, "exact", "[NAME | CASE]",
      "print an exact solution: its numbers, and its profile", 0, 1, command_exact},
     {COMMAND_REPORT, "report", "FOLDER...", "make report.html of the results in a folder", 1, 1000,
@@ -39,6 +41,9 @@ const struct command commands[] = {
      command_help},
 };
 const int command_count = COUNT_OF(commands);
+
+/* Those that compute cases, in which all ranks take part. */
+enum { RUNNING_COMMANDS = COMMAND_RUN | COMMAND_VERIFY | COMMAND_SEARCH | COMMAND_CALIBRATE };
 
 static const struct command *find_command(const char *name)
 {
@@ -100,12 +105,12 @@ static int run_command(int count, char **words, const struct ranks *ranks)
         options_free(&options);
         return launch_ranks(count, words, options.ranks_wanted);
     }
-    if (!error && command->bit & (COMMAND_RUN | COMMAND_CHECK | COMMAND_VERIFY | COMMAND_SEARCH))
+    if (!error && command->bit & (COMMAND_CHECK | RUNNING_COMMANDS))
         error = ranks_agree(ranks, cases_locate(&options));
     int status = EXIT_OK;
     if (error)
         status = report_error(error);
-    else if (ranks->rank == 0 || command->bit & (COMMAND_RUN | COMMAND_VERIFY | COMMAND_SEARCH))
+    else if (ranks->rank == 0 || command->bit & RUNNING_COMMANDS)
         status = command->run(&options);
     options_free(&options);
     const bool unwritten = fflush(stdout) || ferror(stdout);

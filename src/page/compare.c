@@ -105,7 +105,7 @@ static struct error *find_column(const struct csv *csv, const char *path, const 
     return error_context(error, "%s", path);
 }
 
-static struct error *read_data(const struct compare_data *data, struct curve *curve)
+struct error *compare_data_curve(const struct compare_data *data, struct curve *curve)
 {
     struct csv csv;
     int time = 0, value = 1;
@@ -356,7 +356,7 @@ static struct error *put_page(struct comparison *c)
     page_head(&c->page, "Comparison");
     fputs("<header><h1>Comparison</h1></header>\n<main>\n", c->page.file);
     for (int k = 0; k < c->request->data && !error; k++)
-        error = read_data(&c->request->measured[k], &c->data[k]);
+        error = compare_data_curve(&c->request->measured[k], &c->data[k]);
     for (int i = 0; i < count && !error; i++)
         error = compare_probe(c, names[i]);
     page_foot(&c->page, true);

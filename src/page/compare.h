@@ -30,4 +30,8 @@ struct error *compare_write(const struct compare_request *request);
 struct error *compare_data_read(const char *text, struct compare_data *data);
 void compare_data_free(struct compare_data *data);
 
+/* The times and values of DATA, in SI units, its times shifted. Free CURVE->time. */
+struct curve;
+struct error *compare_data_curve(const struct compare_data *data, struct curve *curve);
+
 #endif

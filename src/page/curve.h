@@ -1,4 +1,4 @@
-/* Numbers over time, of runs and of measurements, and how far they are apart. Private to pages. */
+/* Numbers over time, of runs and of measurements, and how far they are apart. */
 #ifndef BOLIDE_PAGE_CURVE_H
 #define BOLIDE_PAGE_CURVE_H
 

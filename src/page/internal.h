@@ -14,6 +14,7 @@ struct page {
     struct csv summary, checks, history, changes;
     struct csv sweep;      /* of a sweep: its table; SUMMARY is that of its first run */
     struct csv statistics; /* of a sweep with repetitions */
+    bool calibration;      /* it is that of a calibration */
 };
 
 /* page.c */
@@ -62,6 +63,9 @@ void page_speed(const struct page *page);
 
 /* sweep.c */
 void page_sweep(const struct page *page);
+
+/* calibration.c: the whole page of a calibration, whose tables are in the folder. */
+struct error *page_calibration(const struct page *page);
 
 /* history.c */
 struct error *page_history(const struct page *page);

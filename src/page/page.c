@@ -145,6 +145,8 @@ static void put_changes(const struct page *page)
 
 static struct error *put_page(const struct page *page)
 {
+    if (page->calibration)
+        return page_calibration(page);
     const char *title = summary_value(&page->summary, "run", NULL, "title");
     if (!*title)
         title = summary_value(&page->summary, "run", NULL, "name");
@@ -226,8 +228,11 @@ static struct error *read_first_run(const char *folder, struct page *page)
 struct error *page_write(const char *folder)
 {
     struct page page = {.folder = folder};
+    char *keys = path_join(folder, "calibrate-keys.csv");
+    page.calibration = keys && access(keys, R_OK) == 0;
+    free(keys);
     struct error *error = page_read_table(folder, "sweep.csv", &page.sweep);
-    if (!error)
+    if (!error && !page.calibration)
         error = page.sweep.rows ? read_first_run(folder, &page) : read_run(folder, &page);
     char *path = path_join(folder, "report.html");
     if (!error)

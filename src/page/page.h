@@ -6,7 +6,8 @@
 
 #include "base/error.h"
 
-/* Writes FOLDER/report.html, of a sweep where FOLDER holds its table (sweep.csv), else of a run.
+/* Writes FOLDER/report.html, of a sweep or a calibration where FOLDER holds its table (sweep.csv,
+ * calibrate-keys.csv), else of a run.
  * ERROR_INPUT when it holds no results of either (no run.log). */
 struct error *page_write(const char *folder);
 
