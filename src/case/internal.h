@@ -37,8 +37,7 @@ const struct node *case_swept_include(const struct document *document, int run, 
  * sweep_runs, where they belong. 0: none of them. */
 struct error *case_take_sweep(struct simulation_case *input, int run);
 
-/* The path that KEY is about: a name of `let` before anything else. A mistake is told of TOLD at
- * PLACE. */
+/* The path that KEY is about: a name of `let` before anything else. Mistakes name TOLD at PLACE. */
 struct error *case_find_target(const struct document *document, const char *key, struct mark place,
                                const char *told, char **path);
 
