@@ -319,13 +319,12 @@ static void fill_blocks(struct filling *f)
         fill_block(f, &f->gas->cells->block[b]);
 }
 
-/* Fills all cells, and again as long as what is in them asks for finer ones. */
+/* Fills all cells again as long as what is in them asks for finer ones. */
 static struct error *fill_levels(struct filling *f, struct simulation *simulation)
 {
     struct gas *gas = f->gas;
     const int times =
         gas->cells->levels > 1 && gas->parameters.regrid > 0 ? 2 * gas->cells->levels : 0;
-    fill_blocks(f);
     for (int k = 0; k < times && !f->error; k++) {
         struct cell_blocks old;
         struct cell_block *list = NULL;
@@ -343,7 +342,23 @@ static struct error *fill_levels(struct filling *f, struct simulation *simulatio
         gas_bind(gas, gas->cells);
         fill_blocks(f);
     }
-    return NULL;
+    return f->error;
+}
+
+/* Fills all cells with what the bodies say, and in its place with the blast of `start`. */
+static struct error *fill_all(struct filling *f, struct simulation *simulation)
+{
+    struct blast *blast = NULL;
+    fill_blocks(f);
+    TRY(ranks_agree(simulation->ranks, f->error));
+    struct error *error = gas_compute_start(f->gas, simulation, &blast);
+    if (!error)
+        error = ranks_agree(simulation->ranks, fill_levels(f, simulation));
+    if (!error && blast)
+        error = gas_fill_blast(f->gas, simulation, blast);
+    f->gas->start_reach = 0.0;
+    gas_free_blast(blast);
+    return error;
 }
 
 struct error *gas_fill(void *solver, struct simulation *simulation)
@@ -364,14 +379,14 @@ struct error *gas_fill(void *solver, struct simulation *simulation)
         error = out_of_memory();
     for (size_t b = 0; b < bodies && !error; b++)
         f.bounds[b] = shape_bounds(&case_body(input, (int)b)->shape);
+    error = ranks_agree(simulation->ranks, error);
     if (!error)
-        error = fill_levels(&f, simulation);
+        error = fill_all(&f, simulation);
     free(f.replacements.at);
     free(f.bounds);
     free(f.near);
     free(f.here);
-    TRY(ranks_agree(simulation->ranks, error ? error : f.error));
-    TRY(gas_start_from(gas, simulation));
+    TRY(error);
     gas_count_air(gas, simulation);
     return gas->layout.marked ? gas_make_markers(gas) : NULL;
 }

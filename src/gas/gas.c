@@ -119,6 +119,8 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
     struct gas *gas = solver;
     gas->parameters = *(const struct gas_parameters *)parameters;
     gas->parameters.courant = courant_of(&gas->parameters);
+    if (!gas->parameters.center.count) /* and no start: the origin */
+        gas->parameters.center = simulation->problem->input->start.center;
     choose_scheme(gas);
     gas_find_materials(simulation, gas->material);
     for (int k = 0; k < 2; k++) {

@@ -73,6 +73,9 @@ struct gas {
     double floor[2];        /* of the pressure, Pa; -INFINITY: none */
     bool thaws;             /* the second material is never colder than 0 K */
     int round;              /* the power of x in a volume: 0 unless x is a radius */
+    struct vector_value
+        start_center;   /* of a blast that has yet to be put into cells, and how far */
+    double start_reach; /* it reaches, m: they are to be fine; 0: there is none */
     struct cell_halo halo;
     uint64_t order; /* of the blocks when the strips were made */
     int32_t room;   /* cells for which `other` has room */
@@ -176,8 +179,14 @@ struct error *gas_check_start(const struct simulation *simulation);
  * its materials. */
 struct error *gas_check_source(const struct gas *gas, const struct simulation *simulation);
 
-/* Collective: the blast of `start`, if any, in the place of what the bodies say. */
-struct error *gas_start_from(struct gas *gas, struct simulation *simulation);
+/* Collective: computes the blast of `start`, *BLAST, which is NULL where there is none, and says
+ * how far it reaches; puts it into the cells in the place of what the bodies say; frees it. */
+struct blast;
+struct error *gas_compute_start(struct gas *gas, struct simulation *simulation,
+                                struct blast **blast);
+struct error *gas_fill_blast(struct gas *gas, const struct simulation *simulation,
+                             struct blast *blast);
+void gas_free_blast(struct blast *blast);
 
 /* The sweeps' pointers to the fields of the store. */
 void gas_bind(struct gas *gas, const struct cell_blocks *cells);
@@ -219,13 +228,25 @@ BOLIDE_INLINE double gas_volume_of(const struct gas *gas, int32_t i)
     return gas_cell_volume(volume, edge, cells->position[i][0], gas->round);
 }
 
-/* The mean of PARTS numbers, a power of two, which it overwrites; of equal ones to the bit. */
-BOLIDE_INLINE double gas_mean_of_parts(double *part, int parts)
+/* Of two cells beside each other along AXIS, the first of which is cell AT of its level, the part
+ * of the volume that the second has: half of it but along a radius. */
+BOLIDE_INLINE double gas_upper_part(const struct gas *gas, int axis, int64_t at)
 {
-    for (int half = parts / 2; half > 0; half /= 2)
+    const double low = gas_cell_volume(1.0, 1.0, (double)at + 0.5, gas->round),
+                 high = gas_cell_volume(1.0, 1.0, (double)at + 1.5, gas->round);
+    return axis == 0 && gas->round ? high / (low + high) : 0.5;
+}
+
+/* The mean of PARTS numbers, a power of two, which it overwrites; of equal ones to the bit. Those
+ * with odd numbers have the part UPPER of the volume. */
+BOLIDE_INLINE double gas_mean_of_parts(double *part, int parts, double upper)
+{
+    for (int half = parts / 2; half > 1; half /= 2)
         for (int k = 0; k < half; k++)
             part[k] += part[k + half];
-    return part[0] / parts;
+    return parts == 1     ? part[0]
+           : upper == 0.5 ? (part[0] + part[1]) / parts
+                          : (part[0] + upper * (part[1] - part[0])) / (parts / 2);
 }
 
 /* The limited difference over a cell divided into parts, between differences to its neighbours: the

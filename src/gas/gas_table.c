@@ -65,6 +65,8 @@ const struct parameter gas_table[] = {
               "`center` and them; default: as fine as `resolution`",
               .below = INFINITY),
     PARAMETER(VECTOR, struct gas_parameters, center, OPTIONAL,
-              "where the blast begins, for `cells_to_front`; default: the origin", .unit = "m"),
+              "where the blast begins, for `cells_to_front`; default: the centre of `start`, "
+              "else the origin",
+              .unit = "m"),
     PARAMETER_END,
 };

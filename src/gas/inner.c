@@ -145,8 +145,9 @@ static void conserved_slope(const struct gas *gas, const double *number,
 }
 
 void gas_divide(const struct gas *gas, const double *number, const double *(*beside)[2],
-                int dimension, double (*part)[GAS_FIELDS])
+                const double upper[3], double (*part)[GAS_FIELDS])
 {
+    const int dimension = gas->cells->dimension;
     const struct gas_inner here = gas_inner_of(gas, number);
     const bool both = here.kind == CONTENT_BOTH;
     double slope[3][GAS_NUMBERS] = {{0.0}}, volume[3] = {0.0};
@@ -161,7 +162,7 @@ void gas_divide(const struct gas *gas, const double *number, const double *(*bes
         double fraction = both ? number[GAS_FRACTION] : 0.0;
         memcpy(part[k], number, GAS_FIELDS * sizeof *number);
         for (int axis = 0; axis < dimension; axis++) {
-            const double by = k >> axis & 1 ? 0.25 : -0.25;
+            const double by = k >> axis & 1 ? 0.5 - 0.5 * upper[axis] : -0.5 * upper[axis];
             fraction += by * volume[axis];
             for (int n = 0; n < GAS_NUMBERS && !both; n++)
                 part[k][n] += by * slope[axis][n];

@@ -31,10 +31,11 @@ void gas_inner_part(const struct gas *gas, const struct gas_inner *here, double 
                     int dimension, const int side[3], double *number);
 
 /* Divides a cell with NUMBER, and neighbours along each axis with those of BESIDE, NULL where they
- * do not tell, into parts whose mean it is: of each conserved number, to rounding. Of a cell of
- * both materials the fraction alone changes. */
+ * do not tell, into parts whose mean it is: of each conserved number, to rounding. UPPER of the
+ * volume lies in the upper parts along each axis. Of a cell of both materials the fraction alone
+ * changes. */
 void gas_divide(const struct gas *gas, const double *number, const double *(*beside)[2],
-                int dimension, double (*part)[GAS_FIELDS]);
+                const double upper[3], double (*part)[GAS_FIELDS]);
 
 /* Traces in a cell with NUMBER that are rounding go to the other material, and the second takes as
  * much volume as it needs not to be colder than 0 K. */

@@ -212,14 +212,8 @@ static void refuse_levels(const struct simulation *simulation,
         text = "several levels of cells run on one rank";
     else if (!eos_traits(&of[material[0]].eos).gas || !eos_traits(&of[material[1]].eos).gas)
         text = "several levels of cells hold gases, no liquids";
-    else if (geometry_power(input->geometry) > 0)
-        text = "with several levels of cells x is no radius";
-    else if (problem_has_gravity(simulation->problem))
-        text = "with several levels of cells there is no gravity";
     else if (input->output.maps.count > 0 || !isnan(parameters->ambient))
         text = "with several levels of cells there are no `maps`: leave them and `ambient` out";
-    else if (input->start.input)
-        text = "with several levels of cells a run begins with bodies: leave `start` out";
     if (text)
         finding_add(findings, FINDING_WRONG, "levels", NULL, "%s", text);
     if (parameters->center.count && parameters->center.count != input->dimension)
@@ -228,7 +222,7 @@ static void refuse_levels(const struct simulation *simulation,
                     input->dimension == 1 ? "" : "s");
     for (int b = 0; b < input->boundaries.count; b++) {
         const int kind = case_boundary(input, b)->kind;
-        if (kind == BOUNDARY_PERIODIC || kind == BOUNDARY_INFLOW)
+        if (kind == BOUNDARY_PERIODIC)
             finding_add(findings, FINDING_WRONG, "boundaries", input->boundaries.names[b],
                         "with several levels of cells no boundary is of kind %s",
                         boundary_kind_name(kind));

@@ -54,22 +54,29 @@ static void mark_near(const struct cell_block *block, int dimension, const int c
     }
 }
 
-/* The level whose cells are as wide as the nearest place of BLOCK from the centre of the blast lets
- * them be. */
-static int level_by_distance(const struct gas *gas, const struct cell_block *block)
+/* The distance from CENTER to the nearest place of BLOCK. */
+static double distance_to(const struct gas *gas, const struct cell_block *block,
+                          const struct vector_value *center)
 {
-    const struct vector_value *center = &gas->parameters.center;
-    const double edge = cell_block_edge(gas->cells, block), cells = gas->parameters.cells_to_front;
+    const double edge = cell_block_edge(gas->cells, block);
     double far = 0.0;
-    int level = 0;
     for (int axis = 0; axis < gas->cells->dimension; axis++) {
         const double low = (double)block->corner[axis] * edge,
                      high = low + block->count[axis] * edge,
                      from = center->count ? center->at[axis] : 0.0;
         far += square(maximum(maximum(low - from, from - high), 0.0));
     }
-    while (level + 1 < gas->cells->levels &&
-           cells * gas->cells->edge * (double)(2 << level) <= sqrt(far))
+    return sqrt(far);
+}
+
+/* The level whose cells are as wide as the nearest place of BLOCK from the centre of the blast lets
+ * them be. */
+static int level_by_distance(const struct gas *gas, const struct cell_block *block)
+{
+    const double far = distance_to(gas, block, &gas->parameters.center),
+                 edge = gas->parameters.cells_to_front * gas->cells->edge;
+    int level = 0;
+    while (level + 1 < gas->cells->levels && edge * (double)(2 << level) <= far)
         level++;
     return level;
 }
@@ -99,6 +106,8 @@ static struct demand demand_of(const struct gas *gas, int32_t b)
                 most = maximum(most, bend);
             }
     demand.level += most > FINER ? -1 : most > COARSER ? 0 : 1;
+    if (distance_to(gas, block, &gas->start_center) < gas->start_reach)
+        demand.level = 0;
     int least = isnan(gas->parameters.cells_to_front) ? 0 : level_by_distance(gas, block);
     if (least > block->level + 1)
         least = block->level + 1;
@@ -223,7 +232,7 @@ static void merge_cells(const struct transfer *t, const struct cell_block *old, 
         shock |= (int)t->old[GAS_SHOCK][i];
     }
     for (int n = 0; n < t->gas->layout.written; n++)
-        t->new[n][to] = gas_mean_of_parts(of[n], parts);
+        t->new[n][to] = gas_mean_of_parts(of[n], parts, gas_upper_part(t->gas, 0, 2 * at[0]));
     t->new[GAS_SHOCK][to] = shock;
 }
 
@@ -245,7 +254,8 @@ static void divide_cell(const struct transfer *t, const struct cell_block *old, 
             number[1 + k][n] = t->old[n][i + (k % 2 ? 1 : -1) * cell_stride(old, k / 2)];
         beside[k / 2][k % 2] = number[1 + k];
     }
-    gas_divide(t->gas, number[0], beside, dimension, part);
+    const double upper[3] = {gas_upper_part(t->gas, 0, 2 * at[0]), 0.5, 0.5};
+    gas_divide(t->gas, number[0], beside, upper, part);
     for (int k = 0; k < 1 << dimension; k++) {
         int64_t to[3] = {0, 0, 0};
         for (int axis = 0; axis < dimension; axis++)

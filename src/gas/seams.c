@@ -86,10 +86,10 @@ static bool take(const struct gas *gas, int level, const int64_t at[3],
         shock |= (int)gas->u[GAS_SHOCK][part[k]];
     }
     for (int n = 0; n < gas->layout.written; n++) {
-        double of[8];
+        double of[8] = {0.0};
         for (int k = 0; k < parts; k++)
             of[k] = gas->u[n][part[k]];
-        number[n] = gas_mean_of_parts(of, parts);
+        number[n] = gas_mean_of_parts(of, parts, gas_upper_part(gas, 0, first[0]));
     }
     number[GAS_SHOCK] = shock;
     return true;
@@ -288,17 +288,17 @@ static bool mean_flux(const struct gas *gas, int axis, const struct gas_seam_end
             beside = &cells->block[end->beside[k]];
     const struct gas_seam_end *other =
         gas_seam_end(gas, axis, (int32_t)(beside - cells->block), 1 - end->side);
-    memset(mean, 0, THROUGH_NUMBERS * sizeof *mean);
-    for (int k = 0; k < faces && other->swept; k++) {
-        const int row =
-            (int)(part[across.first] - beside->corner[across.first]) + k % across.firsts +
-            ((int)(part[across.second] - beside->corner[across.second]) + k / across.firsts) *
-                beside->count[across.first];
-        for (int n = 0; n < numbers; n++)
-            mean[n] += other->flux[row][n];
+    const int row =
+        (int)(part[across.first] - beside->corner[across.first]) +
+        (int)(part[across.second] - beside->corner[across.second]) * beside->count[across.first];
+    const double upper = gas_upper_part(gas, across.first, part[across.first]);
+    for (int n = 0; n < numbers && other->swept; n++) {
+        double of[4] = {0.0};
+        for (int k = 0; k < faces; k++)
+            of[k] = other->flux[row + k % across.firsts +
+                                k / across.firsts * beside->count[across.first]][n];
+        mean[n] = gas_mean_of_parts(of, faces, upper);
     }
-    for (int n = 0; n < numbers; n++)
-        mean[n] /= faces;
     return other->swept;
 }
 
@@ -342,7 +342,11 @@ static bool match_end(const struct gas *gas, int axis, const struct gas_seam_end
 {
     const struct cell_block *own = &gas->cells->block[end->block];
     const struct crosswise across = crosswise_of(gas->cells->dimension, axis);
-    const double r = (end->side ? -dt : dt) / cell_block_edge(gas->cells, own);
+    const double face = (double)(own->corner[0] + (end->side ? own->count[0] : 0)),
+                 middle = (double)(own->corner[0] + (end->side ? own->count[0] - 1 : 0)) + 0.5;
+    double r = (end->side ? -dt : dt) / cell_block_edge(gas->cells, own);
+    if (axis == 0 && gas->round)
+        r *= pow(face, gas->round) / gas_cell_volume(1.0, 1.0, middle, gas->round);
     bool spent = false;
     for (int j = 0; j < own->count[across.second]; j++)
         for (int i = 0; i < own->count[across.first]; i++) {

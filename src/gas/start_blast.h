@@ -34,8 +34,4 @@ struct blast {
 struct error *gas_wrong_start(const struct simulation *simulation, const char *key,
                               const char *text);
 
-/* Collective: puts BLAST into the cells of GAS, in the place of what the bodies say. */
-struct error *gas_fill_blast(struct gas *gas, const struct simulation *simulation,
-                             struct blast *blast);
-
 #endif

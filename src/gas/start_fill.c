@@ -64,16 +64,18 @@ static double each_point(const struct filling *f, const struct blast *blast, int
     const struct cell_blocks *cells = f->gas->cells;
     const int dimension = cells->dimension, n = f->points;
     const int64_t all = dimension == 3 ? (int64_t)n * n * n : (int64_t)n * n;
+    const double edge = cells->size ? cells->size[i] : cells->edge, wide = edge / cells->edge,
+                 whole = dimension == 3 ? wide * wide * wide : wide * wide;
     double total = 0.0;
     for (int64_t p = 0; p < all; p++) {
-        double direction[3] = {0.0}, radius, weight = 1.0;
+        double direction[3] = {0.0}, radius, weight = whole;
         int64_t rest = p;
         for (int axis = 0; axis < dimension; axis++) {
             const double at =
-                cells->position[i][axis] + (((double)(rest % n) + 0.5) / n - 0.5) * cells->edge;
+                cells->position[i][axis] + (((double)(rest % n) + 0.5) / n - 0.5) * edge;
             direction[axis] = at - f->center[axis];
             if (axis == 0 && f->gas->round == 1)
-                weight = at;
+                weight *= at;
             rest /= n;
         }
         total += weight;

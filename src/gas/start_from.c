@@ -26,6 +26,9 @@ struct error *gas_check_start(const struct simulation *simulation)
         return gas_wrong_start(simulation, "from",
                                "that case must be one of one dimension, or an axisymmetric one, "
                                "with the solver gas");
+    if (other->levels > 1)
+        return gas_wrong_start(simulation, "from",
+                               "that case has cells of several levels: leave its `levels` out");
     if (input->dimension == 1)
         return gas_wrong_start(simulation, "from",
                                "this case has one dimension itself: resume that run");
@@ -90,8 +93,10 @@ static struct error *open_blast(struct blast *blast, const struct simulation *si
     return error_context(error, "start.from: %s", start->from);
 }
 
-static void close_blast(struct blast *blast)
+void gas_free_blast(struct blast *blast)
 {
+    if (!blast)
+        return;
     gas_class.destroy(&blast->gas);
     simulation_destroy(&blast->simulation);
     for (int n = 0; n < SHELLS; n++) {
@@ -238,16 +243,28 @@ struct error *gas_check_source(const struct gas *gas, const struct simulation *s
     struct error *error = open_blast(blast, simulation);
     if (!error)
         error = check_materials(simulation, gas, blast);
-    close_blast(blast);
+    gas_free_blast(blast);
     return error;
 }
 
-struct error *gas_start_from(struct gas *gas, struct simulation *simulation)
+/* Where the blast lies, whose cells are to be fine. */
+static void find_reach(struct gas *gas, const struct start_input *start, const struct blast *blast)
+{
+    const double height = blast->low[1] + blast->last[1] * blast->edge,
+                 depth = blast->low[1] + blast->from[1] * blast->edge;
+    gas->start_center = start->center;
+    gas->start_reach = blast->low[0] + blast->last[0] * blast->edge;
+    if (blast->rings)
+        gas->start_reach = hypot(gas->start_reach, maximum(fabs(height), fabs(depth)));
+}
+
+struct error *gas_compute_start(struct gas *gas, struct simulation *simulation, struct blast **out)
 {
     const struct start_input *start = &simulation->problem->input->start;
+    *out = NULL;
     if (!start->input)
         return NULL;
-    struct blast *blast = memory_allocate(sizeof *blast);
+    struct blast *blast = *out = memory_allocate(sizeof *blast);
     if (!blast)
         return out_of_memory_for("a start");
     struct error *error = open_blast(blast, simulation);
@@ -259,7 +276,6 @@ struct error *gas_start_from(struct gas *gas, struct simulation *simulation)
         error = gas_wrong_start(simulation, "from",
                                 "the explosive has not burnt by then: compute that case further");
     if (!error)
-        error = gas_fill_blast(gas, simulation, blast);
-    close_blast(blast);
+        find_reach(gas, start, blast);
     return ranks_agree(simulation->ranks, error);
 }

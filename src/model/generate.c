@@ -303,7 +303,7 @@ static struct error *explore(const struct place *place, const struct bounds *box
         error = error_join(error, judge_body(place, body, ranks, findings));
         total += findings[body].summary.particles;
     }
-    if (total > INT32_MAX)
+    if (total > INT32_MAX && input->levels < 2) /* of several levels there are far fewer cells */
         error =
             error_join(error, input_error(input, "resolution", NULL,
                                           "%.3g particles are more than the %.3g that a rank "

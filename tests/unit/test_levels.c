@@ -291,6 +291,55 @@ static void threads_and_resumes_change_no_bit(void **state)
     }
 }
 
+static const char shells[] =
+    "format: 1\ndimension: 1\ngeometry: spherical\nresolution: 2 mm\nsolver: gas\n" AIR PRODUCTS
+    "bodies:\n"
+    "  air: {material: air, pressure: 0.1 MPa, density: 1.2 kg/m^3, box: {from: [0 m], to: [0.5 "
+    "m]}}"
+    "\n"
+    "  hot: {material: gas, pressure: 1 GPa, density: 900 kg/m^3, box: {from: [0 m], to: [40 mm]}, "
+    "replaces: air}\n"
+    "run: {until: 30 us}\n";
+static const char octant[] =
+    "format: 1\ndimension: 3\nresolution: 5 mm\nlevels: 3\nsolver: gas\n" AIR PRODUCTS "bodies:\n"
+    "  air: {material: air, pressure: 0.1 MPa, density: 1.2 kg/m^3, box: {from: [0 m, 0 m, 0 m], "
+    "to: [0.32 m, 0.32 m, 0.32 m]}}\n"
+    "start: {from: shells.yaml, material: gas}\n"
+    "boundaries:\n"
+    "  x: {kind: reflecting, axis: x, at: 0 m, side: low}\n"
+    "  y: {kind: reflecting, axis: y, at: 0 m, side: low}\n"
+    "  z: {kind: reflecting, axis: z, at: 0 m, side: low}\n"
+    "run: {until: 1 s}\n";
+
+/* As much of both materials and energy as cells of one level. */
+static void a_start_comes_into_cells_that_are_fine(void **state)
+{
+    (void)state;
+    static const struct variant variants[2] = {{"levels", 1, 1.0, NULL, false},
+                                               {"one level", 1, 1.0, "levels=1", false}};
+    char path[96];
+    double sum[2][SUMS];
+    snprintf(path, sizeof path, "%s/shells.yaml", folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(shells, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+    for (int k = 0; k < 2; k++) {
+        struct running *run = begin_fresh(octant, &variants[k]);
+        const struct cell_blocks *cells = run->gas.cells;
+        for (int32_t i = 0; i < cells->count && k == 0; i++)
+            if (cells->pressure[i] > 1.1e5)
+                assert_true(cells->size[i] == cells->edge);
+        assert_true(k == 1 || cells->count < 64 * 64 * 64);
+        sum_up(run, sum[k]);
+        step(run, 3);
+        end(run);
+    }
+    for (int n = 0; n < SUMS; n++)
+        if (n <= SECOND || n == ENERGY)
+            assert_close(sum[0][n], sum[1][n], 1e-12);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -299,6 +348,7 @@ int main(void)
         cmocka_unit_test(two_materials_are_conserved),
         cmocka_unit_test(a_charge_is_fine_until_it_has_burnt),
         cmocka_unit_test(threads_and_resumes_change_no_bit),
+        cmocka_unit_test(a_start_comes_into_cells_that_are_fine),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
