@@ -5,6 +5,7 @@
 #include "cli/cli.h"
 #include "model/solver.h"
 #include "run/forecast.h"
+#include "run/grain_cells.h"
 #include "run/judge.h"
 #include "run/run.h"
 #include "study/sweep.h"
@@ -95,6 +96,21 @@ static void print_mixture(const struct simulation_case *input, const struct esti
         before = ", ";
     }
     printf("\n");
+}
+
+/* `grains: 14.3 particles across the mean grain, 10 across the smallest` */
+static void print_grains(const struct simulation_case *input)
+{
+    struct grain_cells cells;
+    for (int body = 0; body < input->bodies.count; body++) {
+        if (!grain_cells_of(input, body, &cells))
+            continue;
+        printf("  %s: %.3g %s across the mean grain", input->bodies.names[body], cells.mean,
+               members_of(input));
+        if (!isnan(cells.smallest))
+            printf(", %.3g across the smallest", cells.smallest);
+        printf("\n");
+    }
 }
 
 static void print_explosives(const struct simulation_case *input)
@@ -212,6 +228,7 @@ static struct error *check_run(const char *path, const struct cli_options *optio
         for (int i = 0; i < estimate.bodies; i++)
             print_start(input->bodies.names[i], &estimate.body[i].summary);
         print_mixture(input, &estimate);
+        print_grains(input);
         print_explosives(input);
         print_run(input, &estimate);
         const struct forecast forecast = forecast_for(input, &estimate, options);

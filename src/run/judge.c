@@ -11,6 +11,7 @@
 #include "model/generate.h"
 #include "model/loads.h"
 #include "run/blast_cells.h"
+#include "run/grain_cells.h"
 #include "run/rod_cells.h"
 
 /* Measured pressures of Chapman and Jouguet scatter by about a tenth. */
@@ -165,6 +166,7 @@ struct judgement judge_solver(const struct simulation *simulation)
                       error_new(ERROR_INPUT, "%s", error_message(input->notes, i)));
     blast_cells(findings);
     rod_cells(findings);
+    grain_cells(findings);
     judge_explosives(findings);
     judge_limits(findings);
     judge_what_happens(findings);

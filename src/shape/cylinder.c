@@ -64,4 +64,4 @@ static const char *wrong(const void *shape, int dimension)
     return NULL;
 }
 
-const struct shape_class shape_cylinder_class = {inside, bounds, wrong, NULL, NULL, NULL};
+const struct shape_class shape_cylinder_class = {inside, bounds, wrong, NULL, NULL, NULL, NULL};

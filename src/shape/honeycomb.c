@@ -100,4 +100,4 @@ static const char *wrong(const void *shape, int dimension)
     return NULL;
 }
 
-const struct shape_class shape_honeycomb_class = {inside, bounds, wrong, NULL, NULL, NULL};
+const struct shape_class shape_honeycomb_class = {inside, bounds, wrong, NULL, NULL, NULL, NULL};

@@ -90,4 +90,4 @@ static const char *prepare(void *shape, int dimension)
     return text;
 }
 
-const struct shape_class shape_image_class = {inside, bounds, wrong, NULL, NULL, prepare};
+const struct shape_class shape_image_class = {inside, bounds, wrong, NULL, NULL, prepare, NULL};

@@ -68,4 +68,4 @@ static double work(const void *shape)
     return triangles ? (double)triangles->most : 1.0;
 }
 
-const struct shape_class shape_mesh_class = {inside, bounds, wrong, NULL, work, prepare};
+const struct shape_class shape_mesh_class = {inside, bounds, wrong, NULL, work, prepare, NULL};

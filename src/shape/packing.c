@@ -77,4 +77,16 @@ static const char *prepare(void *shape, int dimension)
     return grains_make(&wanted, &packing->grains);
 }
 
-const struct shape_class shape_packing_class = {inside, bounds, wrong, NULL, NULL, prepare};
+static bool grains(const void *shape, struct grain_sizes *sizes)
+{
+    const struct grains *all = ((const struct shape_packing *)shape)->grains;
+    *sizes = (struct grain_sizes){INFINITY, 0.0};
+    for (int64_t i = 0; all && i < all->count; i++) {
+        sizes->smallest = minimum(sizes->smallest, 2.0 * all->radius[i]);
+        sizes->mean += 2.0 * all->radius[i] / (double)all->count;
+    }
+    return sizes->mean > 0.0;
+}
+
+const struct shape_class shape_packing_class = {
+    .inside = inside, .bounds = bounds, .wrong = wrong, .prepare = prepare, .grains = grains};

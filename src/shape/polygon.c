@@ -62,4 +62,4 @@ static double work(const void *shape)
     return ((const struct shape_polygon *)shape)->points.count;
 }
 
-const struct shape_class shape_polygon_class = {inside, bounds, wrong, NULL, work, NULL};
+const struct shape_class shape_polygon_class = {inside, bounds, wrong, NULL, work, NULL, NULL};

@@ -124,4 +124,20 @@ static double work(const void *shape)
     return copies * shape_work(&repeat->shape);
 }
 
-const struct shape_class shape_repeat_class = {inside, bounds, wrong, NULL, work, NULL};
+/* Copies from which on they are a bed of grains. */
+enum { MANY = 10 };
+
+static bool grains(const void *shape, struct grain_sizes *sizes)
+{
+    const struct shape_repeat *repeat = shape;
+    struct radii radii;
+    if (repeat->count.at[0] * repeat->count.at[1] < MANY)
+        return false;
+    if (!shape_radii(&repeat->shape, &radii) || radii.inner > 0.0)
+        return shape_grains(&repeat->shape, sizes);
+    *sizes = (struct grain_sizes){2.0 * radii.outer, 2.0 * radii.outer};
+    return true;
+}
+
+const struct shape_class shape_repeat_class = {
+    .inside = inside, .bounds = bounds, .wrong = wrong, .work = work, .grains = grains};

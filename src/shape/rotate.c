@@ -85,4 +85,9 @@ static double work(const void *shape)
     return shape_work(&((const struct shape_rotate *)shape)->shape);
 }
 
-const struct shape_class shape_rotate_class = {inside, bounds, wrong, NULL, work, NULL};
+static bool grains(const void *shape, struct grain_sizes *sizes)
+{
+    return shape_grains(&((const struct shape_rotate *)shape)->shape, sizes);
+}
+
+const struct shape_class shape_rotate_class = {inside, bounds, wrong, NULL, work, NULL, grains};

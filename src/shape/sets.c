@@ -103,11 +103,17 @@ static bool first_radii(const void *shape, struct radii *radii)
     return shape_radii(items_of(shape), radii);
 }
 
+static bool first_grains(const void *shape, struct grain_sizes *sizes)
+{
+    return shape_grains(items_of(shape), sizes);
+}
+
 static double work(const void *shape) { return shapes_work(shape); }
 
-const struct shape_class shape_union_class = {union_inside, union_bounds, union_wrong,
-                                              NULL,         work,         NULL};
+const struct shape_class shape_union_class = {union_inside, union_bounds, union_wrong, NULL,
+                                              work,         NULL,         NULL};
 const struct shape_class shape_intersection_class = {
-    intersection_inside, intersection_bounds, intersection_wrong, first_radii, work, NULL};
+    intersection_inside, intersection_bounds, intersection_wrong, first_radii, work, NULL,
+    first_grains};
 const struct shape_class shape_difference_class = {
-    difference_inside, first_bounds, difference_wrong, first_radii, work, NULL};
+    difference_inside, first_bounds, difference_wrong, first_radii, work, NULL, first_grains};

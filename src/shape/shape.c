@@ -40,6 +40,12 @@ bool shape_radii(const struct one_of *shape, struct radii *radii)
     return class->radii && class->radii(shape->value, radii);
 }
 
+bool shape_grains(const struct one_of *shape, struct grain_sizes *sizes)
+{
+    const struct shape_class *class = shape->choice ? shape->choice->thing : NULL;
+    return class && class->grains && class->grains(shape->value, sizes);
+}
+
 bool shape_is_box(const struct one_of *shape) { return class_of(shape) == &shape_box_class; }
 
 double shape_work(const struct one_of *shape)

@@ -16,6 +16,11 @@ struct radii {
     double inner, outer;
 };
 
+/* Diameters of the grains that a shape consists of; smallest NAN: not known. */
+struct grain_sizes {
+    double smallest, mean;
+};
+
 struct shape_class {
     bool (*inside)(const void *shape, struct vec3 point);
     /* The smallest box known to contain the shape; infinite if the shape is unbounded. */
@@ -29,6 +34,9 @@ struct shape_class {
     /* Computes what the shape keeps beside its parameters, once they are right; NULL, or what is
      * wrong (static text). NULL instead of a function: nothing. */
     const char *(*prepare)(void *shape, int dimension);
+    /* Fills *sizes of a shape that has been prepared; false, or NULL instead of a function, when it
+     * does not consist of grains, or they fill all of its box. */
+    bool (*grains)(const void *shape, struct grain_sizes *sizes);
 };
 
 extern const struct choice shape_choices[];
@@ -39,6 +47,8 @@ struct bounds shape_bounds(const struct one_of *shape);
 /* Prepares the shape too: it comes before any question of what is inside. */
 const char *shape_wrong(const struct one_of *shape, int dimension);
 bool shape_radii(const struct one_of *shape, struct radii *radii);
+
+bool shape_grains(const struct one_of *shape, struct grain_sizes *sizes);
 
 /* Whether the shape is a box along the axes. */
 bool shape_is_box(const struct one_of *shape);

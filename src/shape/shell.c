@@ -48,4 +48,4 @@ static bool radii(const void *shape, struct radii *radii)
     return true;
 }
 
-const struct shape_class shape_shell_class = {inside, bounds, wrong, radii, NULL, NULL};
+const struct shape_class shape_shell_class = {inside, bounds, wrong, radii, NULL, NULL, NULL};

@@ -89,4 +89,4 @@ static const char *prepare(void *shape, int dimension)
     return NULL;
 }
 
-const struct shape_class shape_template_class = {inside, bounds, wrong, NULL, NULL, prepare};
+const struct shape_class shape_template_class = {inside, bounds, wrong, NULL, NULL, prepare, NULL};

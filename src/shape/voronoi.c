@@ -82,4 +82,14 @@ static const char *prepare(void *shape, int dimension)
     return tessellation_make(&wanted, &voronoi->grains);
 }
 
-const struct shape_class shape_voronoi_class = {inside, bounds, wrong, NULL, NULL, prepare};
+/* Those of a polycrystal touch everywhere. */
+static bool grains(const void *shape, struct grain_sizes *sizes)
+{
+    const struct shape_voronoi *voronoi = shape;
+    const double gap = voronoi->grains ? 2.0 * voronoi->grains->half_gap : 0.0;
+    *sizes = (struct grain_sizes){NAN, voronoi->size - gap};
+    return gap > 0.0;
+}
+
+const struct shape_class shape_voronoi_class = {
+    .inside = inside, .bounds = bounds, .wrong = wrong, .prepare = prepare, .grains = grains};
