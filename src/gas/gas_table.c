@@ -50,7 +50,7 @@ const struct parameter gas_table[] = {
               .kind_of_thing = "gas-method"),
     PARAMETER(NUMBER, struct gas_parameters, courant, OPTIONAL,
               "K of dt = min K h/(|u_i| + c); default: 0.8, with lax-wendroff 0.2",
-              .above = COURANT_LEAST, .below = 1.0),
+              .above = COURANT_LEAST, .below = 1.0, .change = CHANGE_FROM_HERE),
     PARAMETER(NUMBER, struct gas_parameters, ambient, OPTIONAL,
               "pressure of the air before a blast, for the fields `peak_overpressure` and "
               "`peak_impulse`; default: without these fields",

@@ -85,4 +85,8 @@ grep -q "boundaries.block: .*with this solver a resumed run keeps its boundaries
 grep -q "boundaries.y: .*keeps its periodic faces" gas.log || fail "a periodic face: $(cat gas.log)"
 "$BOLIDE" run "$gas" "${how[@]}" --set run.until=0.3ms --resume --change --set boundaries.right.kind=transmitting >gas.log 2>&1 ||
     fail "a face that opens: $(cat gas.log)"
+courant=(--set boundaries.right.kind=transmitting --set run.until=0.4ms --set solver.gas.courant=0.4 --resume)
+"$BOLIDE" run "$gas" "${how[@]}" "${courant[@]}" >gas.log 2>&1
+grep -q "solver.gas.courant: .*--change lets the run continue" gas.log || fail "another step: $(cat gas.log)"
+"$BOLIDE" run "$gas" "${how[@]}" "${courant[@]}" --change >gas.log 2>&1 || fail "another step of a gas: $(cat gas.log)"
 exit $status

@@ -35,6 +35,7 @@ extends gas "$data/everything-gas.yaml" 0.3ms 0.5ms "${quiet[@]}" --set checks=
 extends coupled "$examples/coupling/alternating-plate" 20us 30us --short "${quiet[@]}"
 if [ -n "${BOLIDE_MPIRUN:-}" ]; then
     ranks=2 extends ranks "$data/everything-gas.yaml" 0.3ms 0.5ms "${quiet[@]}" --set checks=
+    ranks=2 extends ranks-sph "$examples/impact/steel-cube-0" 8us 12us "${quiet[@]}"
     ranks=3 extends ranks-mpm "$examples/impact/taylor-bar-mpm" 10us 15us --short "${quiet[@]}"
 fi
 extends failure "$data/everything-failure.yaml" 2us 3us "${quiet[@]}"
