@@ -153,6 +153,7 @@ static struct error *merge_entry(struct node *base, int index, struct node *entr
     /* the index holds the old key: the new one takes its place there */
     free(entry->key);
     entry->key = old->key;
+    entry->removes = old->kind == NODE_MAP && node_is_empty(entry);
     old->key = NULL;
     node_free(old);
     base->child[index] = entry;
@@ -174,6 +175,9 @@ struct error *node_merge(struct node *base, struct node *over)
     if (over->count > 0)
         memmove(over->child, over->child + taken, (size_t)over->count * sizeof *over->child);
     name_index_free(&index);
+    for (int i = base->count - 1; i >= 0; i--)
+        if (base->child[i]->removes)
+            node_free(node_take(base, i));
     return error;
 }
 
