@@ -81,7 +81,8 @@ struct fine_input {
 };
 
 /* start: {from: FILE}: a blast that another case has computed in 1-D or axisymmetry takes the place
- * of what the bodies say within its reach. */
+ * of what the bodies say within its reach. With particles: {from: FOLDER}: the bodies that the
+ * checkpoint of another run has too continue from there. */
 struct start_input {
     char *from;                    /* that case, or its folder; NULL: none */
     double at;                     /* s, how far it is computed; NAN: to its end */
@@ -89,6 +90,7 @@ struct start_input {
     int axis;                      /* that of an axisymmetric case; -1: y */
     bool window;                   /* the domain need not hold all of the blast */
     char *material;                /* that of its denser material, which no body has; may be NULL */
+    struct name_list without;      /* bodies of that run that are left out */
     int material_index;            /* filled by case_read; -1: none */
     struct simulation_case *input; /* filled by case_read; owned */
 };

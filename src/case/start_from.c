@@ -14,11 +14,17 @@ const struct parameter case_start_table[] = {
     PARAMETER(
         TEXT, struct start_input, from, OPTIONAL,
         "a case of one dimension, spherical or cylindrical, or for 3-D an axisymmetric one, or "
-        "the folder of one, from this file's folder; it is computed before this run begins",
+        "the folder of one, from this file's folder; it is computed before this run begins. With "
+        "mpm and sph: a folder of results, from whose checkpoint the bodies continue that this "
+        "case has too",
         .is_path = true),
-    PARAMETER(NUMBER, struct start_input, at, OPTIONAL,
-              "time up to which that case is computed; default: its end", .unit = "s",
-              .below = INFINITY),
+    PARAMETER(
+        NUMBER, struct start_input, at, OPTIONAL,
+        "time up to which that case is computed; default: its end. With mpm and sph: the time "
+        "of the checkpoint",
+        .unit = "s", .below = INFINITY),
+    PARAMETER(NAMES, struct start_input, without, OPTIONAL,
+              "with mpm and sph: the bodies of that run that are left out"),
     PARAMETER(VECTOR, struct start_input, center, OPTIONAL,
               "where its centre lies here; default: the origin", .unit = "m"),
     PARAMETER(CHOICE, struct start_input, axis, OPTIONAL,
@@ -186,8 +192,8 @@ void case_check_start(struct checking *checking)
     if (start->material && start->from)
         start->material_index =
             case_find_name(checking, &input->materials, "material", start->material, "material");
-    if (!start->from && (start->material || start->center.count || !isnan(start->at) ||
-                         start->window || start->axis >= 0))
+    if (!start->from && (start->material || start->without.count || start->center.count ||
+                         !isnan(start->at) || start->window || start->axis >= 0))
         case_wrong(checking, "", "give `from`, the case that is computed first");
     if (start->center.count)
         case_check_components(checking, "center", start->center.count);

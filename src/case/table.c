@@ -191,10 +191,11 @@ const struct parameter case_table[] = {
               .size = sizeof(struct body_input)),
     PARAMETER(TABLE, struct simulation_case, domain, OPTIONAL,
               "the box that is computed (gas, cfdmp, afdmp)", .table = case_domain_table),
-    PARAMETER(
-        TABLE, struct simulation_case, start, OPTIONAL,
-        "a blast that another case computes in 1-D, as the start of this one (gas, cfdmp, afdmp)",
-        .table = case_start_table),
+    PARAMETER(TABLE, struct simulation_case, start, OPTIONAL,
+              "what this case begins with: a blast that another case computes in 1-D (gas, cfdmp, "
+              "afdmp), "
+              "or the bodies of another run in their state at its end (mpm, sph)",
+              .table = case_start_table),
     PARAMETER(MAP, struct simulation_case, boundaries, OPTIONAL,
               "what is outside the faces of the domain, by name: walls, symmetry, periodic faces, "
               "inflow and outflow; and rigid bodies",

@@ -118,6 +118,10 @@ static const struct answer answers[] = {
      "tells which keys the measurements do not tell apart. `bolide search` bisects one key on\n"
      "whether a check passes; `fits` puts lines and power laws through the runs of a sweep.",
      "tasks/calibrate.md"},
+    {" grain grains granular granular.bed powder loose.bed sand bed ",
+     "`packing` makes a bed of random discs or spheres, `voronoi` one of convex grains.\n"
+     "`bolide check` prints the particles across a grain: 12 or more are needed.",
+     "tasks/granular-bed.md"},
     {" statistic seed repetition confidence error.bar error.bars standard.deviation ensemble "
      "monte.carlo random random.grains ",
      "Sweep over the seed of a packing and name it in `repetitions`: the sweep then has means "
@@ -127,7 +131,7 @@ static const struct answer answers[] = {
     {" restart resume checkpoint continue extend longer change ",
      "bolide run --resume continues a run from its last checkpoint, with the same bits. A later\n"
      "end, other outputs, new probes and checks are free; `bolide help KEY` has the class of a\n"
-     "key.",
+     "key. `start: {from: FOLDER}` begins another case with the bodies of a run, fewer or more.",
      "tasks/restart.md"},
     {" film movie video animation animate gif ",
      "bolide film FOLDER [NAME] joins the frames of a picture to an mp4 with ffmpeg, or to an\n"
@@ -145,11 +149,11 @@ static const struct answer answers[] = {
     {" gpu cuda accelerator ", "Not available: Bolide runs on processors, with threads and MPI.",
      "tasks/cluster.md"},
     {" histogram distribution size.distribution ",
-     "Not available as a plot. output: {fragments: yes} lists the mass, size and velocity of "
-     "every\n"
-     "fragment in fragments.csv, and snapshots have all fields for numpy.histogram. Checks take\n"
-     "`quantile`, `spread` and `mean` of a field.",
-     "tasks/results.md"},
+     "output: {histograms: {heat: {field: temperature, of: bed, weight: mass}}} writes a table\n"
+     "at each snapshot, and the report plots it (`bolide help output.histograms`). Fragments are "
+     "in\n"
+     "fragments.csv with output: {fragments: yes}. Checks take `quantile`, `spread` and `mean`.",
+     "case.md"},
     {" colour color colour.map color.map colormap palette colour.range legend ",
      "All frames of a picture share their colours: percentiles of the run, or what `range` says:\n"
      "  pictures: {speed: {range: {low: 0 m/s, high: 6 km/s}, log: no, palette: sequential}}\n"

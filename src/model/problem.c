@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "material/material.h"
 #include "model/boundaries.h"
+#include "model/solver.h"
 
 struct error *input_error(const struct simulation_case *input, const char *section,
                           const char *name, const char *format, ...)
@@ -274,9 +275,10 @@ void problem_refuse_gas_keys(const struct problem *problem, struct findings *fin
     if (geometry_power(input->geometry) > 0 && input->dimension == 1)
         finding_add(findings, FINDING_WRONG, "geometry", NULL,
                     "the solver gas alone computes cylinders and spheres in 1-D");
-    if (input->start.input && !problem->place.is_part)
+    const struct solver_class *method = input->solver.choice->thing;
+    if (input->start.input && !problem->place.is_part && !method->removes)
         finding_add(findings, FINDING_WRONG, "start", NULL,
-                    "the solver gas alone begins from another case");
+                    "the solvers gas, mpm and sph alone begin from another case");
     if (input->levels > 1 && !problem->place.is_part)
         finding_add(findings, FINDING_WRONG, "levels", NULL,
                     "the solver gas alone has cells of several levels");

@@ -86,6 +86,9 @@ struct solver_class {
     struct error *(*advance)(void *solver, struct simulation *simulation, double dt);
     /* Arrays beyond the simulation's that a resumed run needs. */
     struct error *(*state)(void *solver, struct visitor *visitor);
+    /* Takes from BEFORE, which has ended another run, the same for a case that begins with its
+     * particles; BODY gives for each body of BEFORE that of this case, -1: none. NULL: nothing. */
+    void (*carry)(void *solver, const void *before, const int *body);
     void (*destroy)(void *solver);
     /* Bytes a particle, for `bolide check`, at DIMENSION. */
     double (*bytes)(const void *parameters, int dimension);

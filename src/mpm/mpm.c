@@ -148,6 +148,12 @@ static struct error *mpm_state(void *solver, struct visitor *visitor)
     return visitor->visit(visitor, "mpm/limit", NUMBER_DOUBLE, &mpm->limit_before, 1, 1);
 }
 
+static void mpm_carry(void *solver, const void *before, const int *body)
+{
+    (void)body;
+    ((struct mpm *)solver)->limit_before = ((const struct mpm *)before)->limit_before;
+}
+
 static void mpm_destroy(void *solver)
 {
     struct mpm *mpm = solver;
@@ -255,6 +261,7 @@ const struct solver_class mpm_class = {.size = sizeof(struct mpm),
                                        .prepare = mpm_prepare,
                                        .advance = mpm_advance,
                                        .state = mpm_state,
+                                       .carry = mpm_carry,
                                        .destroy = mpm_destroy,
                                        .bytes = mpm_bytes,
                                        .step = mpm_step,

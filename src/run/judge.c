@@ -136,11 +136,14 @@ static void strong_contacts(struct findings *findings, double largest)
     free(summary);
 }
 
-/* Bodies that are to be taken away or slowed by a solver that cannot. */
+/* Bodies that are to be taken away, slowed or left out by a solver that cannot. */
 static void judge_what_happens(struct findings *findings)
 {
     const struct simulation_case *input = findings->input;
     const struct solver_class *method = input->solver.choice->thing;
+    if (input->start.without.count && !method->removes)
+        finding_add(findings, FINDING_WRONG, "start", "without",
+                    "this solver begins with a blast; only mpm and sph leave out bodies");
     for (int i = 0; i < input->bodies.count && !method->removes; i++) {
         const struct body_input *body = case_body(input, i);
         const bool removed = !isnan(body->remove_at);

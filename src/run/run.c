@@ -203,6 +203,7 @@ static struct error *make_solver(struct run *run)
         return out_of_memory_for("warnings");
     TRY(probes_create(run->input, &run->probes));
     TRY(findings_refusal(&run->judgement.findings));
+    TRY(run_check_start(run));
     return run->method->create(run->solver, &run->simulation, run->input->solver.value);
 }
 
@@ -212,6 +213,7 @@ static struct error *make_particles(struct run *run)
     if (!run->options->resume && generate_work(run->input, &run->ranks) > GENERATE_LONG)
         run_say(run, "filling the bodies, which may take minutes");
     TRY(run->options->resume ? run_load(run) : run->method->fill(run->solver, &run->simulation));
+    TRY(run_take_start(run));
     if (run->ranks.joined)
         TRY(simulation_distribute(&run->simulation));
     start_threads(run);

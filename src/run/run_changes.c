@@ -41,7 +41,8 @@ static const char *boundary_stays(const struct run *run, const struct case_chang
     if (strstr(change->before, "periodic") || strstr(change->after, "periodic"))
         return "a resumed run keeps its periodic faces";
     if (entry && !*change->before)
-        return "a resumed run gets no new boundary";
+        return "a resumed run gets no new boundary; a case with `start: {from: FOLDER}` may have "
+               "one";
     return entry && !method->removes ? "with this solver a resumed run keeps its boundaries; their "
                                        "`kind` and what is outside may change"
                                      : NULL;
@@ -52,9 +53,13 @@ static struct error *refuse(const struct run *run, const struct case_change *cha
 {
     const char *why = NULL;
     char before[64], after[64];
+    const bool entry = starts_with(change->key, "loads.") || (starts_with(change->key, "bodies.") &&
+                                                              !(*change->before && *change->after));
     if (change->class == CHANGE_NEVER)
         why = starts_with(change->key, "probes.")
                   ? "a probe that has begun keeps its keys; give the new one another name"
+              : entry
+                  ? "a resumed run cannot change it; another case can, with `start: {from: FOLDER}`"
                   : "a resumed run cannot change it; run the case from the start into another "
                     "folder";
     else if (change->class == CHANGE_FROM_HERE && starts_with(change->key, "boundaries."))

@@ -174,6 +174,12 @@ void run_report_beginning(struct run *run);
 void run_measure_speed(struct run *run);
 void run_report_end(struct run *run);
 
+/* Whether the case begins with the particles of another run; what is wrong with that; takes them,
+ * and its time (run_start.c). The last is collective. */
+bool run_starts_from_folder(const struct run *run);
+struct error *run_check_start(const struct run *run);
+struct error *run_take_start(struct run *run);
+
 /* summary.csv at the beginning of a run; and at its end, with what went wrong (ERROR, NULL:
  * nothing), then report.html. run_report returns ERROR, joined with what went wrong in the
  * writing. */

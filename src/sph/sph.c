@@ -227,6 +227,21 @@ static struct error *sph_state(void *solver, struct visitor *visitor)
                : NULL;
 }
 
+/* A cluster is known by its first body. Bodies that BEFORE has not are each one by itself. */
+static void sph_carry(void *solver, const void *before, const int *body)
+{
+    struct sph *sph = solver;
+    const struct sph *from = before;
+    for (int b = 0; b < sph->bodies && sph->cluster; b++)
+        sph->cluster[b] = (uint16_t)b;
+    for (int b = 0; b < from->bodies && sph->cluster && from->cluster; b++)
+        for (int other = 0; other < b && body[b] >= 0; other++)
+            if (body[other] >= 0 && from->cluster[other] == from->cluster[b]) {
+                sph->cluster[body[b]] = sph->cluster[body[other]];
+                break;
+            }
+}
+
 static void sph_destroy(void *solver)
 {
     struct sph *sph = solver;
@@ -351,6 +366,7 @@ const struct solver_class sph_class = {.size = sizeof(struct sph),
                                        .prepare = sph_prepare,
                                        .advance = sph_advance,
                                        .state = sph_state,
+                                       .carry = sph_carry,
                                        .destroy = sph_destroy,
                                        .bytes = sph_bytes,
                                        .step = sph_step,
