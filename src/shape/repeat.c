@@ -124,7 +124,7 @@ static double work(const void *shape)
     return copies * shape_work(&repeat->shape);
 }
 
-/* Copies from which on they are a bed of grains. */
+/* So many copies, or more, are a bed of grains. */
 enum { MANY = 10 };
 
 static bool grains(const void *shape, struct grain_sizes *sizes)
