@@ -233,8 +233,12 @@ static void read_standard(struct reading *reading, const struct path *path,
     struct error *error =
         node_parse(parameter->standard, strlen(parameter->standard), "the default", false, &node);
     reading->error = error_join(reading->error, error);
-    if (node)
+    if (node) {
+        node->foreign = true; /* a name of `let` may be that of its unit */
+        for (int i = 0; i < node->count; i++)
+            node->child[i]->foreign = true;
         read_value(reading, node, path, parameter, value);
+    }
     node_free(node);
 }
 
@@ -335,6 +339,27 @@ static bool suggest_choice(struct reading *reading, const struct node *entry,
     return told;
 }
 
+/* Complains about ENTRY of MAP where it is a key of the thing that stands inline in the map. */
+static bool suggest_within(struct reading *reading, const struct node *map,
+                           const struct node *entry, const struct path *path,
+                           const struct parameter *table)
+{
+    for (int k = 0; !PARAMETER_IS_END(&table[k]); k++)
+        for (int i = 0; i < map->count && !table[k].key; i++) {
+            const struct choice *thing =
+                catalogue_find(reading->catalogue, table[k].kind_of_thing, map->child[i]->key);
+            for (const struct parameter *p = thing ? thing->table : NULL; p && !PARAMETER_IS_END(p);
+                 p++)
+                if (p->key && !strcmp(p->key, entry->key)) {
+                    complain(reading, entry->key_place, path,
+                             "unknown key \"%s\"; \"%s\" has it: {%s: {%s: ..., %s: ...}}",
+                             entry->key, thing->name, thing->name, thing->table[0].key, entry->key);
+                    return true;
+                }
+        }
+    return false;
+}
+
 /* A misspelt key counts as given, so that one slip gives one message. */
 static void read_table(struct reading *reading, const struct node *map, const struct path *path,
                        const struct parameter *table, void *values)
@@ -356,6 +381,8 @@ static void read_table(struct reading *reading, const struct node *map, const st
                        (char *)values + parameter->offset);
             given[owner[at]] = true;
         } else if (path || strcmp(entry->key, let_key) != 0) {
+            if (path && suggest_within(reading, map, entry, path, table))
+                continue;
             if (path ? suggest_choice(reading, entry, path, table)
                      : suggest_path(reading, entry, table, names, count))
                 continue;
