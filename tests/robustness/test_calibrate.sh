@@ -1,7 +1,7 @@
 #!/bin/bash
 # bolide calibrate: keys come out of synthetic measurements; what targets cannot tell apart is said.
 set -u
-rm -rf results few one bound none shifted wrong
+rm -rf results few one bound none slow shifted wrong
 status=0
 fail() {
     echo "FAILED: $*"
@@ -92,6 +92,13 @@ calibrate 0 "at its upper bound" two.yaml --output bound --set calibrate.keys.k=
 calibrate 0 "without influence on any target" two.yaml --output none --set let.idle=1 \
     --set 'calibrate.keys={c: {from: 4.5 km/s, to: 6 km/s}, idle: {from: 1, to: 2}}'
 
+# A run without a value has no misfit; the first one must have one.
+slow=(--set sweep={} --set "let.p=${p[0]}" --set "let.x=${x[0]}" --set 'calibrate.within=0.5')
+calibrate 1 "front: nothing was measured" two.yaml --output wrong "${slow[@]}" \
+    --set 'calibrate.keys={speed: {from: 20 m/s, to: 2 km/s, start: 20 m/s}}'
+calibrate 0 "speed = 499.9" two.yaml --output slow "${slow[@]}" \
+    --set 'calibrate.keys={speed: {from: 20 m/s, to: 2 km/s, start: 250 m/s}}'
+
 # Measured traces, their time unknown, in two cases.
 cat >slow.yaml <<YAML
 include: plate.yaml
@@ -112,7 +119,7 @@ calibrate 0 "trace: root mean square difference" traced.yaml
 near results/traced-calibrate c 5350
 near results/traced-calibrate k 1.34
 calibrate 0 "misfit" traced.yaml --output shifted --set calibrate.targets.trace.shift=fit
-calibrate 2 'the probe has no column "stress" (it has:' traced.yaml --output wrong --set calibrate.targets.trace.field=stress
+calibrate 2 'the probe has no column "stress" (it has:' traced.yaml --output wrong --overwrite --set calibrate.targets.trace.field=stress
 calibrate 2 '`deviation` is in m, but the column is' traced.yaml --output wrong --set 'calibrate.targets.trace.deviation=1 mm' --overwrite
 calibrate 2 '`is` is in m, but the check measures in Pa' two.yaml --output wrong --set 'calibrate.targets.pressure.is=1 mm' --overwrite
 calibrate 2 'there is no `calibrate`' plate.yaml
