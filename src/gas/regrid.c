@@ -17,7 +17,7 @@
 
 /* Bends from which cells become finer, and below which they become coarser; the change of the
  * pressure over two cells from which it counts; the part of the pressure that is noise. */
-static const double FINER = 0.25, COARSER = 0.1, LEAST_CHANGE = 0.1, NOISE = 0.02;
+static const double FINER = 0.25, COARSER = 0.1, LEAST_CHANGE = 0.01, NOISE = 0.002;
 
 /* Cells around a bend that become finer: more than a wave crosses between two changes. */
 enum { AROUND = 4, SIDES = 27 };
