@@ -98,6 +98,11 @@ void run_place_probes(struct run *run)
             case_changes_place(&run->changes, "probes", run->probes.item[i].name);
 }
 
+int run_stored_probes(const struct run *run)
+{
+    return run->changes.count ? case_changes_entries(&run->changes, "probes") : run->probes.count;
+}
+
 /* What the check at INDEX remembers, of all those of the checkpoint, BEFORE. */
 static struct check_memory memory_of(const struct run *run, int index,
                                      const struct check_memory *before)

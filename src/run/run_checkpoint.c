@@ -38,7 +38,7 @@ static struct error *visit_extra(void *context, struct visitor *visitor)
         TRY(visitor->visit(visitor, arrays[i].name, arrays[i].number, arrays[i].data,
                            arrays[i].count, 1));
     TRY(run_visit_checks(run, visitor));
-    TRY(warnings_visit(run->warnings, visitor));
+    TRY(warnings_visit(run->warnings, &run->probes, run_stored_probes(run), visitor));
     TRY(csv_visit_mark(&run->history_mark, "run/history_file", visitor));
     TRY(probes_visit(&run->probes, visitor));
     if (run->snapshots < 1)

@@ -453,11 +453,41 @@ struct error *warnings_check_loaded(const struct warnings *warnings, int bodies)
     return NULL;
 }
 
-struct error *warnings_visit(struct warnings *warnings, struct visitor *visitor)
+/* What is loaded, of a case with STORED probes, of which PROBES knows its own; those that are new
+ * have not warned. */
+static void take_stored(struct warnings *w, const struct probes *probes, int stored,
+                        const struct warning_memory *memory)
 {
-    TRY(visitor->visit(visitor, "run/tension", NUMBER_DOUBLE, warnings->tension, warnings->bodies,
-                       TENSION_NUMBERS));
-    TRY(visitor->visit(visitor, "run/warnings", NUMBER_DOUBLE, warnings->memory, warnings->memories,
-                       WARNING_NUMBERS));
+    const int before = w->of_energy + 1, loads = w->memories - w->of_loads;
+    const size_t size = sizeof *memory;
+    memcpy(w->memory, memory, (size_t)before * size);
+    memcpy(w->memory + w->of_loads, memory + before + stored, (size_t)loads * size);
+    for (int k = 0; k < probes->count; k++) {
+        const int place = probes->item[k].stored;
+        w->memory[before + k] =
+            place >= 0 && place < stored ? memory[before + place] : (struct warning_memory){0};
+    }
+}
+
+struct error *warnings_visit(struct warnings *warnings, const struct probes *probes, int stored,
+                             struct visitor *visitor)
+{
+    const bool loads = visitor->most;
+    const int count = warnings->memories + (loads ? stored - probes->count : 0);
+    struct warning_memory *memory =
+        loads ? memory_allocate((size_t)count * sizeof *memory) : warnings->memory;
+    if (!memory)
+        return out_of_memory_for("warnings");
+    struct error *error = visitor->visit(visitor, "run/tension", NUMBER_DOUBLE, warnings->tension,
+                                         warnings->bodies, TENSION_NUMBERS);
+    if (!error)
+        error =
+            visitor->visit(visitor, "run/warnings", NUMBER_DOUBLE, memory, count, WARNING_NUMBERS);
+    if (loads) {
+        if (!error)
+            take_stored(warnings, probes, stored, memory);
+        free(memory);
+    }
+    TRY(error);
     return visitor->visit(visitor, "run/largest_speed", NUMBER_DOUBLE, &warnings->speed, 1, 1);
 }

@@ -94,8 +94,10 @@ void warning_results_free(struct warning_results *results);
 /* "; 2 warnings, 1 of them expected"; "" of none. Owned by the caller; NULL when memory is out. */
 char *warnings_count_text(int count, int unexpected);
 
-/* Saves or loads what happened so far. */
-struct error *warnings_visit(struct warnings *warnings, struct visitor *visitor);
+/* Saves or loads what happened so far. What is loaded is of a case with STORED probes; each of
+ * PROBES knows its number among them. */
+struct error *warnings_visit(struct warnings *warnings, const struct probes *probes, int stored,
+                             struct visitor *visitor);
 /* ERROR_SYSTEM when what was loaded names a body that is none of BODIES. */
 struct error *warnings_check_loaded(const struct warnings *warnings, int bodies);
 

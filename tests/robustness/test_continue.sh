@@ -51,6 +51,71 @@ done
 [ -n "$(hash_of whole)" ] && [ "$(hash_of whole)" = "$(hash_of part)" ] || fail "more steps: $(cat part.log)"
 cmp whole/history.csv part/history.csv || fail "with more steps it has another history"
 
+# A probe more, one less, and none: what has been warned of goes on, with the bits of the state.
+cat >rod.yaml <<'END'
+format: 1
+dimension: 1
+resolution: 100 um
+materials: {m: {library: steel-1006}}
+bodies: {b: {material: m, box: {from: [0 mm], to: [3 mm]}, velocity: [10 m/s]}}
+run: {until: 0.3 us}
+output: {pictures: []}
+END
+# probes NAME CASE EARLIER LATER GAUGE TRACER OPTIONS...: TRACER "" where the solver has no particles.
+probes() {
+    local name=$1 case=$2 earlier=$3 later=$4 gauge=$5 tracer=$6 both had has
+    shift 6
+    both="g: {gauge: $gauge}${tracer:+, t: {tracer: $tracer\}}"
+    rm -rf whole
+    "$BOLIDE" run "$case" "$@" --set "probes={}" --set "run.until=$later" --output whole >whole.log 2>&1 ||
+        fail "probes, $name: $(cat whole.log)"
+    for had in "{}" "{g: {gauge: $gauge}}" "{$both}" "{h: {gauge: $gauge}, $both}"; do
+        rm -rf start
+        "$BOLIDE" run "$case" "$@" --set "probes=$had" --set "run.until=$earlier" --output start >part.log 2>&1 ||
+            fail "probes, $name, $had: $(cat part.log)"
+        for has in "{}" "{$both}" "{g: {gauge: $gauge}, n: {gauge: $gauge}}" "{f: {gauge: $gauge}, $both, n: {gauge: $gauge}}"; do
+            rm -rf part
+            cp -r start part
+            "$BOLIDE" run "$case" "$@" --set "probes=$has" --set "run.until=$later" --output part --resume >part.log 2>&1 ||
+                fail "probes, $name, $had then $has: $(cat part.log)"
+            [ "$(hash_of whole)" = "$(hash_of part)" ] || fail "probes, $name: $had then $has, it has other bits"
+        done
+    done
+}
+for solver in sph mpm; do
+    probes $solver rod.yaml 0.3us 0.6us "[1 mm]" "[1.5 mm]" --set "solver=$solver"
+    rm -rf part
+    for has in "{}" "{g: {gauge: [1 mm]}}" "{}"; do # at the same end, as it stands
+        "$BOLIDE" run rod.yaml --set "solver=$solver" --set "probes=$has" --output part ${again:+--resume} >part.log 2>&1 ||
+            fail "$solver, $has at the end: $(cat part.log)"
+        [ "${again:=$(hash_of part)}" = "$(hash_of part)" ] || fail "$solver, $has at the end: it has other bits"
+    done
+    again=
+done
+probes gas "$data/everything-gas.yaml" 0.1ms 0.15ms "[0.1 m, 0.1 m, 0.1 m]" "" --set "output.pictures=[]" --set checks=
+
+# A tracer whose particle has failed stays warned of, once, among other probes; one that ends does not.
+cat >spall.yaml <<'END'
+format: 1
+dimension: 1
+resolution: 50 um
+solver: sph
+materials: {m: {library: steel-1006, failure: {spall: {strength: 100 MPa}}}}
+bodies:
+  flyer: {material: m, box: {from: [0 mm], to: [1 mm]}, velocity: [200 m/s]}
+  b: {material: m, box: {from: [1 mm], to: [3 mm]}}
+run: {until: 0.8 us}
+output: {pictures: []}
+END
+rm -rf part
+"$BOLIDE" run spall.yaml --set "probes={gone: {tracer: [2 mm]}, old: {tracer: [2.5 mm]}}" --output part >start.log 2>&1
+"$BOLIDE" run spall.yaml --set "probes={new: {gauge: [2 mm]}, deep: {tracer: [1.2 mm]}, old: {tracer: [2.5 mm]},
+    more: {gauge: [1 mm]}}" --set run.until=1us --output part --resume >part.log 2>&1
+tell=$(grep -o '^warning: tracer "old" .* failed at t = [0-9.]* ns' start.log)
+[ -n "$tell" ] && grep -qF "  $tell" part.log && ! grep -q '^warning: tracer "old"' part.log ||
+    fail "a tracer that has failed: $tell, $(cat part.log)"
+grep -q '^warning: tracer "gone"' start.log && ! grep -q 'warning: tracer "[gm]' part.log || fail "$(cat part.log)"
+
 # Everything that is free, at once; what is new begins with the resume.
 "$BOLIDE" new plate --template impact >/dev/null 2>&1 || true
 case=plate/case.yaml
