@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "case/internal.h"
+#include "model/particles/held.h"
 #include "run/run_internal.h"
 
 /* Keys of a check that say what it is compared with, and not what is measured. */
@@ -73,6 +74,41 @@ static struct error *refuse(const struct run *run, const struct case_change *cha
                           shown(change->after, after, sizeof after), why);
 }
 
+/* The body whose `remove_at` CHANGE is of; -1: it is of another key. */
+static int body_to_remove(const struct run *run, const struct case_change *change)
+{
+    static const char start[] = "bodies.", end[] = ".remove_at";
+    const size_t length = strlen(change->key);
+    if (!starts_with(change->key, start) || length <= strlen(start) + strlen(end) ||
+        strcmp(change->key + length - strlen(end), end) != 0)
+        return -1;
+    const char *name = change->key + strlen(start);
+    const size_t own = length - strlen(start) - strlen(end);
+    for (int b = 0; b < run->input->bodies.count; b++)
+        if (strlen(run->input->bodies.names[b]) == own &&
+            !strncmp(run->input->bodies.names[b], name, own))
+            return b;
+    return -1;
+}
+
+/* When a body is to go means nothing once it has gone. Collective. */
+static struct error *check_removals(struct run *run)
+{
+    struct error *error = NULL;
+    for (int i = 0; i < run->changes.count; i++) {
+        struct case_change *change = &run->changes.item[i];
+        const int body = body_to_remove(run, change);
+        if (body < 0)
+            continue;
+        const double at = case_body(run->input, body)->remove_at;
+        const bool has_gone = body_members(&run->simulation, body) == 0;
+        if (has_gone && !(at > run->simulation.time))
+            change->class = CHANGE_FREELY;
+        error = error_join(error, refuse(run, change));
+    }
+    return error;
+}
+
 struct error *run_find_changes(struct run *run)
 {
     char *path = run_path(run, "checkpoint.h5"), *before = NULL;
@@ -85,7 +121,8 @@ struct error *run_find_changes(struct run *run)
         error = error_context(error, "%s: its case is damaged", path);
     }
     for (int i = 0; i < run->changes.count; i++)
-        error = error_join(error, refuse(run, &run->changes.item[i]));
+        if (body_to_remove(run, &run->changes.item[i]) < 0) /* run_check_loaded_changes does that */
+            error = error_join(error, refuse(run, &run->changes.item[i]));
     free(before);
     free(path);
     return error;
@@ -141,7 +178,7 @@ struct error *run_visit_checks(struct run *run, struct visitor *visitor)
 
 /* The end of the run, where it has changed: nothing can end before the checkpoint, and no run can
  * continue from a step that was shortened to end elsewhere. */
-struct error *run_check_end(const struct run *run)
+static struct error *check_end(const struct run *run)
 {
     const double time = run->simulation.time;
     for (int i = 0; i < run->changes.count; i++) {
@@ -157,6 +194,12 @@ struct error *run_check_end(const struct run *run)
                                   "start");
     }
     return NULL;
+}
+
+struct error *run_check_loaded_changes(struct run *run)
+{
+    struct error *error = check_removals(run);
+    return error_join(error, check_end(run));
 }
 
 struct error *run_follow_changes(struct run *run)

@@ -130,12 +130,13 @@ void run_report_loads(struct run *run);
 /* What a resumed run has otherwise (run_changes.c): collective, the difference of the case from
  * that of the checkpoint, and the errors of what may not change; which of the probes of the
  * checkpoint each probe is, and how many it has; the memory of checks; after the rest is loaded,
- * what follows from the changes; the record of them, and lines for the user. */
+ * collective, the errors that need it, and what follows from the changes; the record of them, and
+ * lines for the user. */
 struct error *run_find_changes(struct run *run);
 void run_place_probes(struct run *run);
 int run_stored_probes(const struct run *run);
 struct error *run_visit_checks(struct run *run, struct visitor *visitor);
-struct error *run_check_end(const struct run *run);
+struct error *run_check_loaded_changes(struct run *run);
 struct error *run_follow_changes(struct run *run);
 struct error *run_record_changes(struct run *run);
 void run_report_changes(struct run *run);

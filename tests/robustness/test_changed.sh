@@ -61,6 +61,18 @@ for solver in mpm sph; do
         [ "$(hash_of part)" = "$(hash_of whole)" ] || fail "$solver: on $ranks ranks a body removed later has other bits"
     done
     tail -n 1 whole/history.csv | cut -d, -f4 | grep -qx 100 || fail "$solver: the body is there: $(tail -n 1 whole/history.csv)"
+    # Once it has gone the key is free; while it is there, it is not.
+    resumed --set bodies.wall.remove_at=0s --set run.until=16us --change || fail "$solver: $(cat part.log)"
+    "$BOLIDE" run push.yaml --set "solver=$solver" --output part --resume >part.log 2>&1 ||
+        fail "$solver: a body that has gone must be removed again: $(cat part.log)"
+    gone=$(hash_of part)
+    grep -q '^2,.*"bodies.wall.remove_at","0 s","",free$' part/changes.csv || fail "$solver: $(cat part/changes.csv)"
+    [ "$(tail -n 1 part/history.csv | cut -d, -f4)" = 100 ] || fail "$solver: a body that has gone is back"
+    resumed --set bodies.wall.remove_at=0s --change || fail "$solver: $(cat part.log)"
+    [ "$(hash_of part)" = "$gone" ] || fail "$solver: without the key of a body that has gone there are other bits"
+    resumed --set bodies.wall.remove_at=30us
+    [ $? = 2 ] && [ "$(hash_of part)" = "$(hash_of start)" ] && grep -qF -- "--change lets" part.log ||
+        fail "$solver: a body that is there: $(cat part.log)"
     # What cannot be changed though others of its kind can.
     resumed --change --set loads=
     grep -q "loads.push: .*a resumed run cannot change it" part.log || fail "a load is removed: $(cat part.log)"

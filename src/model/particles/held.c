@@ -66,6 +66,19 @@ bool remove_bodies(struct simulation *simulation, double since)
     return any;
 }
 
+int64_t body_members(const struct simulation *simulation, int body)
+{
+    int64_t members = 0;
+    for (int k = 0; k < simulation->populations; k++) {
+        if (simulation->population[k].type != &particle_population)
+            continue;
+        const struct particles *p = particles_in(&simulation->population[k]);
+        for (int32_t i = 0; i < p->count; i++)
+            members += p->body[i] == body;
+    }
+    return ranks_sum(simulation->ranks, members);
+}
+
 static bool body_is_damped(const struct simulation *simulation, int body)
 {
     const struct body_input *input = case_body(simulation->problem->input, body);

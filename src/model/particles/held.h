@@ -23,6 +23,9 @@ void stop_bodies(struct simulation *simulation, const struct particles *particle
  * with them; simulation_commit takes them out. True where there are such bodies. */
 bool remove_bodies(struct simulation *simulation, double since);
 
+/* How many particles BODY has on all ranks; 0: it has been taken away. Collective. */
+int64_t body_members(const struct simulation *simulation, int body);
+
 /* Slows the bodies with `damping` as a step from SINCE to now does, and books what they lose. */
 void damp_bodies(struct simulation *simulation, double since);
 
