@@ -21,7 +21,7 @@ const struct parameter case_start_table[] = {
     PARAMETER(
         NUMBER, struct start_input, at, OPTIONAL,
         "time up to which that case is computed; default: its end. With mpm and sph: the time "
-        "of the checkpoint",
+        "of the checkpoint, or the end of that run",
         .unit = "s", .below = INFINITY),
     PARAMETER(NAMES, struct start_input, without, OPTIONAL,
               "with mpm and sph: the bodies of that run that are left out"),

@@ -93,14 +93,10 @@ struct error *run_checkpoint(struct run *run)
 /* What a kill in the first minutes loses should be a minute. */
 static const double FIRST_CHECKPOINT = 60.0;
 
-/* Before which the remaining time is spread over the last two steps, whose limit is not known yet:
- * that of the step before may be smaller. */
-static const double STEPS_BEFORE_END = 3.0;
-
 struct error *run_checkpoint_before_end(struct run *run)
 {
     const struct run_input *end = &run->input->run;
-    const bool near = end->until - run->simulation.time <= STEPS_BEFORE_END * run->limit.dt ||
+    const bool near = end->until - run->simulation.time <= RUN_STEPS_BEFORE_END * run->limit.dt ||
                       (end->max_steps > 0 && run->simulation.step + 1 >= end->max_steps);
     return near && !run->shortened && run->checkpoint_step < run->simulation.step
                ? run_checkpoint(run)
@@ -152,7 +148,7 @@ struct error *run_load(struct run *run)
     run_place_probes(run);
     struct error *error = path ? checkpoint_read(path, &checkpoint) : out_of_memory();
     if (!error)
-        error = ranks_agree(&run->ranks, run_check_end(run));
+        error = ranks_agree(&run->ranks, run_check_loaded_changes(run));
     if (!error) {
         error = simulation_check_loaded(&run->simulation);
         if (!error)

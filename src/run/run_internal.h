@@ -144,6 +144,10 @@ void run_report_changes(struct run *run);
 /* s; the interval of history.csv. */
 double run_history_interval(const struct run *run);
 
+/* Before which the remaining time is spread over the last two steps, whose limit is not known yet:
+ * that of the step before may be smaller. */
+#define RUN_STEPS_BEFORE_END 3.0
+
 /* Collective, before a step: keeps a checkpoint where this step may be the first that is shortened
  * to end the run, so that the run can be extended. */
 struct error *run_checkpoint_before_end(struct run *run);

@@ -133,10 +133,15 @@ static char *checkpoint_path(const char *from)
     return text_format("%.*s/checkpoint.h5", (int)(is_file ? length - end : length), from);
 }
 
-static struct error *check_time(const struct run *run, double time)
+static bool is_at(double time, double other) { return fabs(time - other) <= 1e-9 * other; }
+
+/* TIME is that of the checkpoint, LARGEST the longest step of that run. */
+static struct error *check_time(const struct run *run, double time, double largest)
 {
     const struct simulation_case *input = run->input;
-    if (!isnan(input->start.at) && fabs(input->start.at - time) > 1e-9 * time)
+    const double at = input->start.at, end = input->start.input->run.until;
+    const bool ended = end - time <= RUN_STEPS_BEFORE_END * largest;
+    if (!isnan(at) && !is_at(at, time) && !(ended && is_at(at, end)))
         return input_error(input, "start", "at",
                            "the checkpoint of that run is at t = %.9g s; leave `at` out to begin "
                            "there, or end that run at this time (run.until) first",
@@ -171,20 +176,29 @@ static struct error *take_particles(struct run *run, const struct simulation *be
     return error;
 }
 
+static struct error *visit_largest_step(void *context, struct visitor *visitor)
+{
+    return visitor->visit(visitor, "run/largest_step", NUMBER_DOUBLE, context, 1, 1);
+}
+
 /* Reads the checkpoint of the run that `start` names as BEFORE with its SOLVER. */
 static struct error *read_before(struct run *run, struct simulation *before, void *solver)
 {
     const struct simulation_case *from = run->input->start.input;
     TRY(ranks_agree(&run->ranks, run->method->create(solver, before, from->solver.value)));
     char *path = checkpoint_path(run->input->start.from);
-    const struct checkpoint checkpoint = {
-        .simulation = before, .method = run->method, .solver = solver};
+    double largest = 0.0;
+    const struct checkpoint checkpoint = {.simulation = before,
+                                          .method = run->method,
+                                          .solver = solver,
+                                          .extra = visit_largest_step,
+                                          .context = &largest};
     struct error *error = path ? checkpoint_read(path, &checkpoint) : out_of_memory();
     if (!error)
         error =
             ranks_agree(&run->ranks, error_context(simulation_check_loaded(before), "%s", path));
     if (!error)
-        error = ranks_agree(&run->ranks, check_time(run, before->time));
+        error = ranks_agree(&run->ranks, check_time(run, before->time, largest));
     free(path);
     return error_context(error, "start");
 }

@@ -41,6 +41,9 @@ for solver in mpm sph; do
         run on --set start.from=first --ranks "$ranks" || fail "$solver, continued: $(cat log)"
         [ "$(hash_of on)" = "$(hash_of whole)" ] || fail "$solver: continued on $ranks ranks it has other bits"
     done
+    # `at` is the end of that run, though its checkpoint is of the steps before.
+    run at --set 'start={from: first, at: 10 us}' || fail "$solver, at the end: $(cat log)"
+    [ "$(hash_of at)" = "$(hash_of whole)" ] || fail "$solver: continued at the end it has other bits"
     cmp <(sed -n 2p on/history.csv | cut -d, -f1,2) <(grep -m 1 '^1.0[0-9]*e-05,' whole/history.csv | cut -d, -f1,2) ||
         fail "$solver: the time does not go on: $(sed -n 2p on/history.csv | cut -c1-80)"
     run off --set bodies.wall= --set 'start={from: first, without: wall}' || fail "$solver, a body less: $(cat log)"
@@ -83,6 +86,10 @@ refused 'bodies.wall.velocity: [-100 m/s, 0 m/s] in the case that `start` names,
 refused 'materials.steel.eos: {grueneisen' --set materials.steel.library=steel-4340-johnson-cook
 refused 'start: that case is of the solver sph: with mpm' --set solver=mpm
 refused 'start.at: the checkpoint of that run is at t = ' --set start.at=5us
+refused 'start.at: the checkpoint of that run is at t = ' --set start.at=10.1us
+cp -r first cut
+sed -i 's/until: .*/until: 3e-05 s/' cut/case.yaml
+refused 'start.at: the checkpoint of that run is at t = 9.' --set start.from=cut --set start.at=30us --set run.until=40us
 refused 'run.until: the run that `start` names is at t = ' --set run.until=5us
 refused '`center`, `axis`, `window` and `material` are of a blast' --set 'start.center=[0 mm, 0 mm]'
 rm first/checkpoint.h5
