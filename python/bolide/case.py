@@ -80,14 +80,17 @@ class Case:
         Refused with all mistakes of the case."""
         return self._call("check", [])
 
-    def run(self, folder, threads=None, ranks=None, resume=False, overwrite=False):
+    def run(self, folder, threads=None, ranks=None, resume=False, overwrite=False,
+            change=False):
         """Runs the case into FOLDER and returns its Results. Checks that fail raise nothing: see
-        Results.checks. An interrupt (Ctrl-C) lets the program write its checkpoint first."""
+        Results.checks. With resume, a run continues from its checkpoint; with change also where
+        loads, boundaries and the like have changed. An interrupt (Ctrl-C) lets the program write its checkpoint first."""
         words = ["--output", os.fspath(folder)]
         words += ["--threads", str(threads)] if threads else []
         words += ["--ranks", str(ranks)] if ranks else []
         words += ["--resume"] if resume else []
         words += ["--overwrite"] if overwrite else []
+        words += ["--change"] if change else []
         self._call("run", words)
         return Results(folder)
 

@@ -42,6 +42,8 @@ class Results:
     @property
     def summary(self):
         """{(about, name, quantity): value} of summary.csv: numbers in SI units, and texts."""
+        if not (self.folder / "summary.csv").exists():
+            raise self._of_runs("summary or status")
         with open(self.folder / "summary.csv", newline="", encoding="utf-8") as file:
             return {(row["about"], row["name"], row["quantity"]):
                     row["value"] if row["unit"] == "text" else float(row["value"] or "nan")
@@ -100,7 +102,13 @@ class Results:
 
     def at(self, time):
         """The snapshot nearest to TIME, in seconds."""
-        return min(self.snapshots, key=lambda snapshot: abs(snapshot.time - time))
+        snapshots = self.snapshots
+        if not snapshots and (self.folder / "sweep.csv").exists():
+            raise self._of_runs("snapshots")
+        if not snapshots:
+            raise FileNotFoundError(f"{self.folder} has no snapshots: `output: {{snapshots: no}}`, "
+                                    "or the run has not begun")
+        return min(snapshots, key=lambda snapshot: abs(snapshot.time - time))
 
     @property
     def sweep(self):
@@ -113,6 +121,10 @@ class Results:
         return self._named("runs", {name: Results(self.folder / name)
                                     for name in self.sweep["run"]
                                     if (self.folder / name / "summary.csv").exists()})
+
+    def _of_runs(self, what):
+        return FileNotFoundError(f"{self.folder} is a sweep and has no {what}: its runs have, "
+                                 "runs[FOLDER]")
 
     def _lists(self, folder):
         lists = {}

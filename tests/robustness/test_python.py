@@ -89,6 +89,13 @@ def runs():
     expect(abs(last.weights("mass").sum() / total - 1.0) < 1e-6, "the mass of a snapshot")
     expect(run.at(0.0).step == 0 and run.at(1.0).step == last.step, "the nearest snapshot")
 
+    bare = bolide.Case("case.yaml").set("output.snapshots", "no")
+    raised(FileNotFoundError, "has no snapshots", lambda: bare.run("bare", overwrite=True).at(0.0))
+    bare.set("gravity", ["10 m/s^2"]).set("run.until", "0.25 us")
+    raised(bolide.Refused, "--change", lambda: bare.run("bare", resume=True))
+    expect(bare.run("bare", resume=True, change=True).history["time"][-1] == 0.25e-6,
+           "a run that goes on with another key")
+
     failed = raised(bolide.Failed, "energy", lambda: bolide.Case("case.yaml").set(
         "run.energy_drift", 1e-30).set("solver", {"sph": {"method": "standard"}}).run(
             "drifted", overwrite=True))
@@ -100,6 +107,8 @@ def sweeps():
     case = bolide.Case.of({**CASE, "sweep": {"speed": ["100 m/s", "200 m/s"]}}, "sweep.yaml")
     sweep = case.run("sweep", overwrite=True)
     expect(list(sweep.sweep["speed"]) == [100.0, 200.0], "the values of a sweep")
+    raised(FileNotFoundError, "is a sweep and has no summary or status", lambda: sweep.status)
+    raised(FileNotFoundError, "is a sweep and has no snapshots", lambda: sweep.at(0.0))
     expect([run.checks["least"].value for run in sweep.runs.values()] ==
            list(sweep.sweep["least"]), "the runs of a sweep")
 
