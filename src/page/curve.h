@@ -25,10 +25,13 @@ bool curve_varies(const struct curve *curve);
 /* Whether the points of A lie on B, as far as B goes. */
 bool curve_equal(const struct curve *a, const struct curve *b);
 
-/* Root mean square of RUN less DATA, whose times are SHIFT later. */
+/* Whether RUN and DATA, whose times are SHIFT later, overlap by half of the shorter or more. */
+bool curve_overlaps(const struct curve *run, const struct curve *data, double shift);
+
+/* Root mean square of RUN less DATA, whose times are SHIFT later; NAN where they do not overlap. */
 double curve_rms(const struct curve *run, const struct curve *data, double shift);
 
-/* The shift, up to a quarter of the data's time, of the smallest difference. */
+/* The shift of the smallest difference, of all with which they overlap. */
 double curve_shift(const struct curve *run, const struct curve *data);
 
 #endif
