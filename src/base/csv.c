@@ -98,6 +98,19 @@ const char *csv_field(const struct csv *csv, int64_t row, int column)
     return there ? csv->field[(row + 1) * csv->columns + column] : "";
 }
 
+char *csv_heads(const struct csv *csv, int first)
+{
+    enum { SHOWN = 24 };
+    char *text = text_copy("");
+    for (int i = first; i < csv->columns && i <= first + SHOWN && text; i++) {
+        char *longer = text_format("%s%s%s", text, i > first ? ", " : "",
+                                   i < first + SHOWN ? csv_head(csv, i) : "...");
+        free(text);
+        text = longer;
+    }
+    return text;
+}
+
 int csv_column(const struct csv *csv, const char *name)
 {
     for (int i = 0; i < csv->columns; i++)

@@ -24,6 +24,10 @@ void csv_free(struct csv *csv);
 const char *csv_head(const struct csv *csv, int column);
 const char *csv_field(const struct csv *csv, int64_t row, int column);
 
+/* The heads from column FIRST on, "time [s], pressure [Pa]", the first two dozen, in fresh
+ * memory. */
+char *csv_heads(const struct csv *csv, int first);
+
 /* The column headed NAME, -1 if there is none. */
 int csv_column(const struct csv *csv, const char *name);
 

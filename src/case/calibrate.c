@@ -37,8 +37,9 @@ static const struct parameter target_table[] = {
               "the measured trace, a CSV file with a line of names above", .is_path = true),
     PARAMETER(TEXT, struct calibration_target, time, OPTIONAL,
               "the column of times, `t_us:us` with a unit that its name lacks; default: the first"),
-    PARAMETER(TEXT, struct calibration_target, value, OPTIONAL,
-              "the column of values, in the same way; default: the second"),
+    PARAMETER(
+        TEXT, struct calibration_target, value, OPTIONAL,
+        "the column of values, in the same way; default: that called as `field`, else the second"),
     PARAMETER(VECTOR, struct calibration_target, between, OPTIONAL,
               "two times: what was measured before or after does not count", .unit = "s"),
     PARAMETER(TEXT, struct calibration_target, shift, "0 s",

@@ -8,6 +8,7 @@
 #include "run/grain_cells.h"
 #include "run/judge.h"
 #include "run/run.h"
+#include "study/calibrate.h"
 #include "study/sweep.h"
 
 static const char *mass_unit(const struct simulation_case *input)
@@ -243,13 +244,30 @@ static struct error *check_run(const char *path, const struct cli_options *optio
     return error;
 }
 
+/* The targets of `calibrate`, with the files that they name. */
+static struct error *check_calibration(const char *path, const struct cli_options *options)
+{
+    struct simulation_case *input;
+    TRY(read_run_of_sweep(path, options, 0, &input));
+    char *materials = share_folder("materials");
+    const struct verify_options reading = {
+        .reading = case_reading(options, (const char *const *)&materials),
+        .catalogue = &bolide_catalogue,
+    };
+    struct error *error =
+        input->calibrate.keys.count ? calibrate_validate(input, path, &reading) : NULL;
+    free(materials);
+    case_free(input);
+    return error;
+}
+
 static struct error *check_case(const char *path, const struct cli_options *options)
 {
     int runs;
     struct error *error = check_run(path, options, 0, &runs);
     for (int run = 1; !error && run <= runs; run++)
         error = check_run(path, options, run, &runs);
-    return error;
+    return error ? error : check_calibration(path, options);
 }
 
 int command_check(const struct cli_options *options)

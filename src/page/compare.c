@@ -5,10 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/expression.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "base/units.h"
 #include "page/curve.h"
 #include "page/internal.h"
 
@@ -23,105 +21,6 @@ struct comparison {
     struct curve data[DATA_MAX];
     int plots;
 };
-
-void compare_data_free(struct compare_data *data)
-{
-    free(data->path);
-    free(data->time);
-    free(data->value);
-    free(data->probe);
-    free(data->field);
-    *data = (struct compare_data){0};
-}
-
-static struct error *read_shift(const char *text, double *shift)
-{
-    struct quantity quantity;
-    static const struct dimension seconds = {.time = 1};
-    TRY(error_context(expression_evaluate(text, NULL, &quantity), "shift"));
-    if (!dimension_equal(quantity.dimension, seconds))
-        return error_new(ERROR_INPUT, "shift: \"%s\" is not a time, such as 20ns", text);
-    *shift = quantity.value;
-    return NULL;
-}
-
-struct error *compare_data_read(const char *text, struct compare_data *data)
-{
-    static const char *const keys[] = {"time", "value", "probe", "field", "shift"};
-    *data = (struct compare_data){.path = text_copy_part(text, strcspn(text, ","))};
-    char **const place[] = {&data->time, &data->value, &data->probe, &data->field};
-    for (const char *at = strchr(text, ','); at; at = strchr(at + 1, ',')) {
-        const char *key = at + 1, *equals = strchr(key, '=');
-        size_t k = 0;
-        while (equals && k < COUNT_OF(keys) &&
-               (strlen(keys[k]) != (size_t)(equals - key) ||
-                strncmp(keys[k], key, strlen(keys[k])) != 0))
-            k++;
-        if (!equals || k == COUNT_OF(keys))
-            return error_new(ERROR_INPUT,
-                             "--data: \"%.60s\" is none of time=, value=, probe=, "
-                             "field=, shift=",
-                             key);
-        char *value = text_copy_part(equals + 1, strcspn(equals + 1, ","));
-        if (!value)
-            return out_of_memory();
-        if (k < COUNT_OF(place)) {
-            free(*place[k]);
-            *place[k] = value;
-            continue;
-        }
-        struct error *error = read_shift(value, &data->shift);
-        free(value);
-        TRY(error_context(error, "--data"));
-    }
-    return data->path ? NULL : out_of_memory();
-}
-
-/* The column of CSV that WANTED names, "t_us:us" or "time", and the scale of its unit; WANTED NULL:
- * that at FIRST. */
-static struct error *find_column(const struct csv *csv, const char *path, const char *wanted,
-                                 int first, int *column, double *scale)
-{
-    struct unit unit = {.scale = 1.0};
-    const size_t length = wanted ? strcspn(wanted, ":") : 0;
-    *column = wanted ? -1 : first;
-    for (int i = 0; i < csv->columns && *column < 0; i++) {
-        const char *head = csv_head(csv, i);
-        const size_t name = strcspn(head, "[");
-        const size_t bare = name > 0 && head[name] && head[name - 1] == ' ' ? name - 1 : name;
-        if (bare == length && !strncmp(head, wanted, length))
-            *column = i;
-    }
-    if (*column < 0 || *column >= csv->columns)
-        return error_new(ERROR_INPUT, "%s: there is no column \"%.*s\"", path, (int)length,
-                         wanted ? wanted : "");
-    const char *bracket = strchr(csv_head(csv, *column), '[');
-    char *text = wanted && wanted[length] ? text_copy(wanted + length + 1)
-                 : bracket                ? text_copy_part(bracket + 1, strcspn(bracket + 1, "]"))
-                                          : text_copy("");
-    struct error *error = text ? unit_parse(text, &unit) : out_of_memory();
-    free(text);
-    *scale = unit.scale;
-    return error_context(error, "%s", path);
-}
-
-struct error *compare_data_curve(const struct compare_data *data, struct curve *curve)
-{
-    struct csv csv;
-    int time = 0, value = 1;
-    double time_scale = 1.0, scale = 1.0;
-    TRY(csv_read(data->path, &csv));
-    struct error *error =
-        csv.columns ? NULL : error_new(ERROR_INPUT, "%s: there is no such table", data->path);
-    if (!error)
-        error = find_column(&csv, data->path, data->time, 0, &time, &time_scale);
-    if (!error)
-        error = find_column(&csv, data->path, data->value, 1, &value, &scale);
-    if (!error)
-        error = curve_make(&csv, time, value, time_scale, scale, data->shift, curve);
-    csv_free(&csv);
-    return error;
-}
 
 static void judge(const struct comparison *c, const char *folder, const struct compare_data *data,
                   const struct curve *run, const struct curve *measured, const char *unit)
@@ -158,6 +57,51 @@ static int by_number(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
+}
+
+/* The head of the column of the runs that DATA is compared with, in fresh memory. */
+static struct error *find_head(const struct comparison *c, const struct compare_data *data,
+                               char **head)
+{
+    if (!data->probe || !data->field)
+        return error_new(ERROR_INPUT, "--data: %s: %s is missing: what it is compared with",
+                         data->path, data->probe ? "field=" : "probe=");
+    struct error *error = NULL;
+    *head = NULL;
+    for (int r = 0; r < c->request->runs && !*head && !error; r++) {
+        struct csv csv = {0};
+        char *path = text_format("%s/probes/%s.csv", c->request->folder[r], data->probe);
+        error = path ? csv_read(path, &csv) : out_of_memory_for("a comparison");
+        for (int i = 1; i < csv.columns && !*head && !error; i++)
+            if (same_name(csv_head(&csv, i), data->field)) {
+                *head = text_copy(csv_head(&csv, i));
+                error = *head ? NULL : out_of_memory_for("a comparison");
+            }
+        if (!error && !*head && r == c->request->runs - 1) {
+            char *known = csv.columns ? csv_heads(&csv, 1) : NULL;
+            error = known ? error_new(ERROR_INPUT, "%s: there is no column \"%s\" (known: %s)",
+                                      path, data->field, known)
+                          : error_new(ERROR_INPUT, "--data: %s has no probe \"%s\"",
+                                      c->request->folder[r], data->probe);
+            free(known);
+        }
+        free(path);
+        csv_free(&csv);
+    }
+    return error;
+}
+
+static struct error *read_data(struct comparison *c, int index)
+{
+    const struct compare_data *data = &c->request->measured[index];
+    char *head, *unit = NULL;
+    TRY(find_head(c, data, &head));
+    unit = compare_unit(head);
+    struct error *error =
+        unit ? compare_data_curve(data, unit, &c->data[index]) : out_of_memory_for("a comparison");
+    free(unit);
+    free(head);
+    return error;
 }
 
 /* What a plot shows: a line, or the points of a measurement. */
@@ -356,7 +300,7 @@ static struct error *put_page(struct comparison *c)
     page_head(&c->page, "Comparison");
     fputs("<header><h1>Comparison</h1></header>\n<main>\n", c->page.file);
     for (int k = 0; k < c->request->data && !error; k++)
-        error = compare_data_curve(&c->request->measured[k], &c->data[k]);
+        error = read_data(c, k);
     for (int i = 0; i < count && !error; i++)
         error = compare_probe(c, names[i]);
     page_foot(&c->page, true);

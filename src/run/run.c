@@ -452,7 +452,9 @@ struct error *run_probe(const struct simulation_case *input, const struct run_op
     return error;
 }
 
-struct error *run_validate(const struct simulation_case *input)
+struct error *run_prepare_probe(const struct simulation_case *input, const char *name,
+                                struct error *(*take)(const struct probe *probe, void *context),
+                                void *context)
 {
     const struct run_options options = {.threads = 1};
     struct run_result result;
@@ -462,10 +464,17 @@ struct error *run_validate(const struct simulation_case *input)
     struct error *error = make_solver(run);
     if (!error)
         error = look_ahead(run);
-    if (!error && run_is_filled_in_check(input))
+    if (!error && name)
+        error = take(probes_find(&run->probes, name), context);
+    if (!error && !name && run_is_filled_in_check(input))
         error = run->method->fill(run->solver, &run->simulation);
     destroy(run);
     return error;
+}
+
+struct error *run_validate(const struct simulation_case *input)
+{
+    return run_prepare_probe(input, NULL, NULL, NULL);
 }
 
 void run_result_free(struct run_result *result)

@@ -71,6 +71,11 @@ int run_threads(int asked, double members);
  * (generate_summary): walls, contacts, solver, checks, pictures; where run_is_filled_in_check also
  * those of cells, such as gaps between bodies, and of the case that it starts from. */
 struct error *run_validate(const struct simulation_case *input);
+/* The same but for cells; then TAKE gets the probe NAME, which INPUT has, with its columns. */
+struct probe;
+struct error *run_prepare_probe(const struct simulation_case *input, const char *name,
+                                struct error *(*take)(const struct probe *probe, void *context),
+                                void *context);
 /* Whether cells, and the case that INPUT starts from, take a few seconds at most. */
 bool run_is_filled_in_check(const struct simulation_case *input);
 

@@ -301,6 +301,15 @@ struct error *calibrate(const struct simulation_case *input, const char *path, c
     return error;
 }
 
+struct error *calibrate_validate(const struct simulation_case *input, const char *path,
+                                 const struct verify_options *options)
+{
+    struct calibration calibration = {.input = input, .best = -1};
+    struct error *error = calibrate_prepare(&calibration, path, options);
+    calibration_free(&calibration);
+    return error;
+}
+
 double calibrated_value_of(const struct calibration *c, int k)
 {
     return c->best < 0 ? (double)NAN : c->run[c->best].key[k];

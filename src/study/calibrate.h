@@ -66,6 +66,11 @@ struct error *calibrate(const struct simulation_case *input, const char *path, c
                         struct calibration *calibration);
 void calibration_free(struct calibration *calibration);
 
+/* Prepares a calibration of INPUT, the case at PATH, and drops it: ERROR_INPUT for what is wrong
+ * with its further cases, or with probes and traces of its targets. */
+struct error *calibrate_validate(const struct simulation_case *input, const char *path,
+                                 const struct verify_options *options);
+
 /* Key K of the best run, its standard deviation, and the correlation of two keys. */
 double calibrated_value_of(const struct calibration *calibration, int k);
 double calibrated_deviation(const struct calibration *calibration, int k);
@@ -117,5 +122,15 @@ struct error *calibrate_check_unit(const struct calibration *calibration, int v,
 /* Fills the residuals of value V from what RUN, whose results are in FOLDER, measured. */
 struct error *calibrate_residuals(const struct calibration *calibration, int v, const char *folder,
                                   struct calibrated_run *run);
+
+/* calibrate_traces.c */
+
+/* Reads the trace of VALUE, of a target of a probe in HERE, the case of its computation. */
+struct error *calibrate_prepare_trace(const struct calibration *calibration,
+                                      const struct simulation_case *here,
+                                      struct calibrated_value *value);
+/* Fills its residuals from the probe whose record is in FOLDER. */
+struct error *calibrate_trace_residuals(const struct calibration *calibration, int v,
+                                        const char *folder, struct calibrated_run *run);
 
 #endif

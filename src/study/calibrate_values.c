@@ -6,7 +6,6 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "model/problem.h"
-#include "page/compare.h"
 #include "study/calibrate.h"
 
 static const struct calibration_target *target_of(const struct calibration *c, int v)
@@ -56,12 +55,13 @@ char *calibrate_computation_folder(const struct calibration *c, int run, int at)
 static struct error *add_value(struct calibration *c, struct calibrated_value value)
 {
     struct calibrated_value *grown = realloc(c->value, ((size_t)c->values + 1) * sizeof *c->value);
+    if (grown)
+        c->value = grown;
     if (!grown || !value.name) {
         free(value.name);
         free(value.data.time);
         return out_of_memory();
     }
-    c->value = grown;
     value.first = c->residuals;
     c->residuals += value.count;
     c->value[c->values++] = value;
@@ -115,52 +115,10 @@ static struct error *add_check(struct calibration *c, const struct simulation_ca
     return error;
 }
 
-/* Keeps of DATA what is between the times of the target, before its shift. */
-static void cut(const struct calibration_target *target, struct curve *data)
-{
-    const double shift = isnan(target->shift_time) ? 0.0 : target->shift_time;
-    int64_t kept = 0;
-    for (int64_t i = 0; i < data->count && target->between.count; i++) {
-        const double time = data->time[i] - shift;
-        if (time < target->between.at[0] || time > target->between.at[1])
-            continue;
-        data->time[kept] = data->time[i];
-        data->value[kept++] = data->value[i];
-    }
-    if (target->between.count)
-        data->count = kept;
-}
-
-/* The unit behind the field of a probe is known when it has been written; that of its deviation
- * must be the same. */
 static struct error *add_trace(struct calibration *c, const struct simulation_case *here,
                                struct calibrated_value value)
 {
-    static const struct dimension none;
-    const struct calibration_target *target = case_target(c->input, value.target);
-    const char *name = c->input->calibrate.targets.names[value.target];
-    const struct compare_data data = {target->data, target->time, target->value,
-                                      .shift =
-                                          isnan(target->shift_time) ? 0.0 : target->shift_time};
-    struct error *error = NULL;
-    if (named_map_find(&here->probes, target->probe) < 0)
-        error = input_error(c->input, "calibrate.targets", name, "%s has no probe \"%s\"",
-                            target->of, target->probe);
-    if (!error)
-        error = compare_data_curve(&data, &value.data);
-    if (!error) {
-        const double largest = maximum(fabs(curve_largest(&value.data)), 1e-300);
-        cut(target, &value.data);
-        if (value.data.count < 2)
-            error = input_error(c->input, "calibrate.targets", name,
-                                "fewer than two measured values are left of %s", target->data);
-        value.is = NAN;
-        value.count = (int)value.data.count;
-        value.deviation = target->deviation.value;
-        if (dimension_equal(target->deviation.dimension, none))
-            value.deviation *= largest;
-        dimension_text(target->deviation.dimension, value.unit);
-    }
+    struct error *error = calibrate_prepare_trace(c, here, &value);
     if (!error)
         return add_value(c, value);
     free(value.name);
@@ -332,72 +290,6 @@ struct error *calibrate_check_unit(const struct calibration *c, int v,
                        check->unit[0] ? check->unit : "plain numbers");
 }
 
-/* The column of the probe that the target compares; -1: it has none. */
-static int find_field(const struct csv *csv, const char *field)
-{
-    const size_t length = strlen(field);
-    for (int i = 1; i < csv->columns; i++) {
-        const char *head = csv_head(csv, i);
-        if (!strncmp(head, field, length) && (!head[length] || !strncmp(head + length, " [", 2)))
-            return i;
-    }
-    return -1;
-}
-
-static struct error *wrong_field(const struct calibration *c, int v, const struct csv *csv)
-{
-    char known[512] = "";
-    for (int i = 1; i < csv->columns; i++) {
-        const char *head = csv_head(csv, i);
-        const size_t used = strlen(known);
-        snprintf(known + used, sizeof known - used, "%s%.*s", i > 1 ? ", " : "",
-                 (int)strcspn(head, "["), head);
-    }
-    return input_error(
-        c->input, "calibrate.targets", c->input->calibrate.targets.names[c->value[v].target],
-        "the probe has no column \"%s\" (it has: %s)", target_of(c, v)->field, known);
-}
-
-/* The deviation of a trace must have the unit of its column, unless it is a fraction. */
-static struct error *check_trace_unit(const struct calibration *c, int v, const char *head)
-{
-    const struct calibrated_value *value = &c->value[v];
-    const char *bracket = strchr(head, '[');
-    char *text = bracket ? text_copy_part(bracket + 1, strcspn(bracket + 1, "]")) : text_copy("");
-    struct unit unit, own;
-    struct error *error = text ? unit_parse(text, &unit) : out_of_memory();
-    free(text);
-    TRY(error);
-    TRY(unit_parse(value->unit, &own));
-    if (!value->unit[0] || dimension_equal(unit.dimension, own.dimension))
-        return NULL;
-    return input_error(c->input, "calibrate.targets",
-                       c->input->calibrate.targets.names[value->target],
-                       "`deviation` is in %s, but the column is `%s`", value->unit, head);
-}
-
-/* Each of N residuals is divided by the root of N, so that a trace weighs as much as a check. */
-static void compare_trace(const struct calibration *c, int v, const struct curve *computed,
-                          struct calibrated_run *run)
-{
-    const struct calibrated_value *value = &c->value[v];
-    const struct curve *data = &value->data;
-    const double shift = isnan(target_of(c, v)->shift_time) ? curve_shift(computed, data) : 0.0;
-    const double rms = curve_rms(computed, data, shift);
-    int64_t covered = 0;
-    double *residual = run->residual + value->first;
-    run->measured[v] = rms;
-    if (isnan(rms))
-        return;
-    for (int64_t i = 0; i < data->count; i++) {
-        const double off = curve_at(computed, data->time[i] + shift) - data->value[i];
-        residual[i] = isfinite(off) ? off / value->deviation : 0.0;
-        covered += isfinite(off);
-    }
-    for (int64_t i = 0; i < data->count; i++)
-        residual[i] /= sqrt((double)covered);
-}
-
 struct error *calibrate_residuals(const struct calibration *c, int v, const char *folder,
                                   struct calibrated_run *run)
 {
@@ -407,22 +299,5 @@ struct error *calibrate_residuals(const struct calibration *c, int v, const char
         run->residual[value->first] = (run->measured[v] - value->is) / value->deviation;
         return NULL;
     }
-    struct csv csv = {0};
-    struct curve computed = {0};
-    char *path = text_format("%s/probes/%s.csv", folder, target->probe);
-    struct error *error = path ? csv_read(path, &csv) : out_of_memory();
-    free(path);
-    run->measured[v] = NAN;
-    const int column = error ? -1 : find_field(&csv, target->field);
-    if (!error && csv.columns && column < 0)
-        error = wrong_field(c, v, &csv);
-    if (!error && column > 0)
-        error = check_trace_unit(c, v, csv_head(&csv, column));
-    if (!error && column > 0)
-        error = curve_make(&csv, 0, column, 1.0, 1.0, 0.0, &computed);
-    if (!error && computed.count > 1)
-        compare_trace(c, v, &computed, run);
-    free(computed.time);
-    csv_free(&csv);
-    return error;
+    return calibrate_trace_residuals(c, v, folder, run);
 }

@@ -1,7 +1,7 @@
 #!/bin/bash
 # bolide calibrate: keys come out of synthetic measurements; what targets cannot tell apart is said.
 set -u
-rm -rf results few one bound none slow shifted wrong
+rm -rf results few one bound none slow shifted wrong exact
 status=0
 fail() {
     echo "FAILED: $*"
@@ -119,8 +119,57 @@ calibrate 0 "trace: root mean square difference" traced.yaml
 near results/traced-calibrate c 5350
 near results/traced-calibrate k 1.34
 calibrate 0 "misfit" traced.yaml --output shifted --set calibrate.targets.trace.shift=fit
-calibrate 2 'the probe has no column "stress" (it has:' traced.yaml --output wrong --overwrite --set calibrate.targets.trace.field=stress
+calibrate 2 'the probe has no column "stress" (known: position.x, pressure' traced.yaml --output wrong --overwrite --set calibrate.targets.trace.field=stress
 calibrate 2 '`deviation` is in m, but the column is' traced.yaml --output wrong --set 'calibrate.targets.trace.deviation=1 mm' --overwrite
+
+# Columns: what is no time, not like the field, or without a unit is refused before the first run.
+rm -rf wrong
+python3 - <<'PYTHON'
+rows = [line.rstrip("\n").split(",") for line in open("trace.csv")]
+at = [head.split(" [")[0] for head in rows[0]].index("pressure")
+for name, factor, *heads in [("units", 1, "t_us", "p"), ("kilos", 1, "time [us]", "p [kg]"), ("metres", 1, "time [m]", "pressure [Pa]"),
+                             ("later", 1, "time [us]", "p [GPa]")]:
+    with open(name + ".csv", "w") as out:
+        print(*heads, sep=",", file=out)
+        for row in rows[1:]:
+            time = float(row[0]) * 1e6 + (3.7 if name == "later" else 0)
+            print(time, float(row[at]) * (1e-9 if name != "metres" else 1), sep=",", file=out)
+with open("second.csv", "w") as out: # the column of the field is not the second
+    for row in rows:
+        print(row[0], "position.x [m]" if row is rows[0] else 0, row[at], sep=",", file=out)
+PYTHON
+# refused WORDS KEYS...: `check` and `calibrate` refuse the trace with KEYS, and nothing was run.
+refused() {
+    local words=$1 settings=()
+    shift
+    for key; do settings+=(--set "calibrate.targets.trace.$key"); done
+    calibrate 2 "$words" traced.yaml --output wrong "${settings[@]}"
+    "$BOLIDE" check traced.yaml "${settings[@]}" >log 2>&1
+    [ $? = 2 ] && grep -qF -- "$words" log || fail "check, $*: not \"$words\": $(cat log)"
+    [ ! -e wrong ] || fail "$*: a run was begun"
+}
+refused 'there is no such table' data=none.csv
+refused 'no unit in `t_us`; write `time: t_us:us`' data=units.csv value=
+refused 'no unit in `p`; write `value: p:Pa`' data=units.csv value= time=t_us:us
+refused '`p [kg]` is not a quantity like `pressure`, which is in Pa (known: time [us], p [kg])' data=kilos.csv value=
+refused '`time [m]` is not a time' data=metres.csv
+refused 'the unit of `pressure:kg` contradicts that of the column, `pressure [Pa]`' value=pressure:kg
+refused '`position.x [m]` is not a quantity like `pressure`' 'value=position.x'
+refused 'there is no column "stress" (known: time [s], position.x [m], pressure [Pa])' data=second.csv value=stress
+refused 'trace (3.7 us to 4 us) does not overlap the probe (0 s to 300 ns): give a `shift`' data=later.csv value=
+refused 'unknown unit "MPascal"' value=pressure:MPascal
+exact() {
+    calibrate 0 "run 1: c = 5.35 km/s" traced.yaml --output exact --overwrite --set calibrate.keys.k= \
+        --set calibrate.keys.c.start=5.35km/s --set calibrate.within=0.001 "$@"
+    grep -q "^  trace: .* misfit \(0\|[0-9.]*e-.*\)$" log || fail "$*: not an exact fit: $(cat log)"
+}
+exact --set calibrate.targets.trace.data=second.csv --set calibrate.targets.trace.value=
+exact --set calibrate.targets.trace.data=second.csv --set 'calibrate.targets.trace.value=pressure [Pa]'
+exact --set calibrate.targets.trace.data=units.csv --set calibrate.targets.trace.value=p:GPa --set calibrate.targets.trace.time=t_us:us
+# A zero that is far off.
+exact --set calibrate.targets.trace.data=later.csv --set calibrate.targets.trace.value= --set calibrate.targets.trace.shift=fit
+exact --set calibrate.targets.trace.data=later.csv --set calibrate.targets.trace.value= --set calibrate.targets.trace.shift=-3.7us
+
 calibrate 2 '`is` is in m, but the check measures in Pa' two.yaml --output wrong --set 'calibrate.targets.pressure.is=1 mm' --overwrite
 calibrate 2 'there is no `calibrate`' plate.yaml
 exit $status

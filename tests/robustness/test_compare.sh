@@ -48,6 +48,18 @@ assert float(a["rms"]) < float(b["rms"])
 PYTHON
 "$BOLIDE" compare a --data test.csv,tme=t_us:us >wrong.log 2>&1
 [ $? = 2 ] || fail "a wrong key: $(cat wrong.log)"
+# refused WORDS DATA: the measured series is refused.
+refused() {
+    "$BOLIDE" compare a --data "$2" >wrong.log 2>&1
+    [ $? = 2 ] && grep -qF -- "$1" wrong.log || fail "$2: not \"$1\": $(cat wrong.log)"
+}
+pressure=probe=gauge,field=pressure
+refused 'no unit in `t_us`; write `time=t_us:us`' test.csv,value=p:GPa,$pressure
+refused '`p:kg` is not a quantity like `pressure`' test.csv,time=t_us:us,value=p:kg,$pressure
+refused 'there is no column "q" (known: t_us, p)' test.csv,time=t_us:us,value=q:GPa,$pressure
+refused 'a/probes/gauge.csv: there is no column "stress" (known: ' test.csv,time=t_us:us,value=p:GPa,probe=gauge,field=stress
+refused 'a has no probe "gage"' test.csv,time=t_us:us,value=p:GPa,probe=gage,field=pressure
+refused 'field= is missing' test.csv,time=t_us:us,value=p:GPa,probe=gauge
 "$BOLIDE" compare a --data none.csv >wrong.log 2>&1
 [ $? = 2 ] || fail "a missing file: $(cat wrong.log)"
 # The exact solution that a gauge recorded is a line in the plot of its pressure: one, where runs have the same.
