@@ -141,12 +141,12 @@ static const char blocked_levels[] =
     "  block: {box: {from: [0.384 m, 0.1 m], to: [0.512 m, 0.3 m]}}\n"
     "  plate: {box: {from: [0.2 m, 0.28 m], to: [0.36 m, 0.288 m]}}\n" END;
 static const char space_of_levels[] =
-    "format: 1\ndimension: 3\nresolution: 20 mm\nlevels: 3\nsolver: gas\n"
+    "format: 1\ndimension: 3\nresolution: 40 mm\nlevels: 3\nsolver: gas\n"
     "fine: {hot: {box: {from: [0.3 m, 0.2 m, 0.2 m], to: [0.31 m, 0.21 m, 0.21 m]}}}\n" AIR
     "bodies:\n"
-    "  air: {material: air, box: {from: [0 m, 0 m, 0 m], to: [1.6 m, 1.12 m, 1.28 m]}, "
+    "  air: {material: air, box: {from: [0 m, 0 m, 0 m], to: [1.6 m, 1.28 m, 1.28 m]}, "
     "pressure: 0.1 MPa}\n"
-    "  hot: {material: air, ball: {center: [0.3 m, 0.2 m, 0.2 m], radius: 0.07 m}, "
+    "  hot: {material: air, ball: {center: [0.3 m, 0.2 m, 0.2 m], radius: 0.14 m}, "
     "pressure: 5 MPa, replaces: air}\n"
     "walls: {floor: {mirror: z, at: 0 m, side: low}}\n" END;
 
