@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/curve.h"
 #include "base/memory.h"
 #include "measure/probes.h"
-#include "measure/trace.h"
 
 enum take {
     TAKE_LAST,
@@ -209,7 +209,7 @@ static int64_t next_number(const struct probe *probe, int column, int64_t row)
 
 /* The rows of the window that have numbers, and where the window cuts between two, what is
  * there. */
-static void trace_fill(struct trace *trace, const struct probe *probe, int column,
+static void fill_curve(struct curve *curve, const struct probe *probe, int column,
                        const struct measure_recorded *recorded)
 {
     const double ends[2] = {recorded->after, recorded->before};
@@ -220,10 +220,10 @@ static void trace_fill(struct trace *trace, const struct probe *probe, int colum
         const double value = probe->value[row * probe->columns + column];
         for (int i = 0; i < 2; i++)
             if (earlier < ends[i] && ends[i] < time)
-                trace_add(trace, ends[i],
+                curve_add(curve, ends[i],
                           before + (value - before) * (ends[i] - earlier) / (time - earlier));
         if (!(time < ends[0]) && !(time > ends[1]))
-            trace_add(trace, time, value);
+            curve_add(curve, time, value);
         earlier = time;
         before = value;
     }
@@ -251,50 +251,50 @@ static double time_when(const struct probe *probe, int column,
     return NAN;
 }
 
-static bool is_finite(const struct trace *trace)
+static bool is_finite(const struct curve *curve)
 {
-    for (int64_t i = 0; i < trace->count; i++)
-        if (!isfinite(trace->value[i]))
+    for (int64_t i = 0; i < curve->count; i++)
+        if (!isfinite(curve->value[i]))
             return false;
     return true;
 }
 
 /* Why TAKE of CURVE, which has finite values, is not a number. */
-static enum nothing why_not(const struct trace *trace, int take)
+static enum nothing why_not(const struct curve *curve, int take)
 {
-    return !trace->count         ? NOTHING_NOT_RECORDED
+    return !curve->count         ? NOTHING_NOT_RECORDED
            : take == TAKE_PERIOD ? NOTHING_NO_PEAKS
-           : trace->count < 2    ? NOTHING_ONE_ROW
+           : curve->count < 2    ? NOTHING_ONE_ROW
                                  : NOTHING_SAID;
 }
 
-static double take(const struct trace *trace, const struct measure_recorded *recorded)
+static double take(const struct curve *curve, const struct measure_recorded *recorded)
 {
-    int64_t lowest = trace_extreme(trace, -1.0), highest = trace_extreme(trace, 1.0);
-    double range = trace->value[highest] - trace->value[lowest];
+    int64_t lowest = curve_extreme(curve, -1.0), highest = curve_extreme(curve, 1.0);
+    double range = curve->value[highest] - curve->value[lowest];
     double noise = isnan(recorded->noise.value) ? 0.01 * range : recorded->noise.value;
-    struct trace_peaks peaks = trace_peaks(trace, noise);
+    struct curve_peaks peaks = curve_peaks(curve, noise);
     switch ((enum take)recorded->take) {
     case TAKE_LAST:
-        return trace->value[trace->count - 1];
+        return curve->value[curve->count - 1];
     case TAKE_MINIMUM:
-        return trace->value[lowest];
+        return curve->value[lowest];
     case TAKE_MAXIMUM:
-        return trace->value[highest];
+        return curve->value[highest];
     case TAKE_MEAN:
-        return trace_mean(trace);
+        return curve_mean(curve);
     case TAKE_RMS:
-        return trace_rms(trace);
+        return curve_root_mean_square(curve);
     case TAKE_RANGE:
         return range;
     case TAKE_TIME_OF_MINIMUM:
-        return trace->time[lowest];
+        return curve->time[lowest];
     case TAKE_TIME_OF_MAXIMUM:
-        return trace->time[highest];
+        return curve->time[highest];
     case TAKE_SLOPE:
-        return trace_slope(trace);
+        return curve_slope(curve);
     case TAKE_SPEED:
-        return fabs(trace_slope(trace));
+        return fabs(curve_slope(curve));
     case TAKE_MAXIMA:
         return (double)peaks.count;
     case TAKE_PERIOD:
@@ -304,41 +304,41 @@ static double take(const struct trace *trace, const struct measure_recorded *rec
 }
 
 static struct error *fill_from(const struct measurement *measurement, const char *name,
-                               const struct measure_recorded *recorded, struct trace *trace)
+                               const struct measure_recorded *recorded, struct curve *curve)
 {
     struct probe *probe;
     int column;
     TRY(measure_find_record(measurement, name, recorded->column, &probe, &column));
     assert(probe);
-    if (!trace_reserve(trace, probe->rows + 2))
+    if (!curve_reserve(curve, probe->rows + 2))
         return out_of_memory_for("a check");
-    trace_fill(trace, probe, column, recorded);
+    fill_curve(curve, probe, column, recorded);
     return NULL;
 }
 
-/* The trace that RECORDED asks for, less what it subtracts; TRACE is to be released in any case. */
-static struct error *make_trace(const struct measurement *measurement,
-                                const struct measure_recorded *recorded, struct trace *trace)
+/* The curve that RECORDED asks for, less what it subtracts; CURVE is to be released in any case. */
+static struct error *make_curve(const struct measurement *measurement,
+                                const struct measure_recorded *recorded, struct curve *curve)
 {
-    TRY(fill_from(measurement, recorded->probe, recorded, trace));
-    struct trace other = {0, NULL, NULL};
+    TRY(fill_from(measurement, recorded->probe, recorded, curve));
+    struct curve other = {0, NULL, NULL};
     struct error *error = NULL;
     if (recorded->less) {
         error = fill_from(measurement, recorded->less, recorded, &other);
-        trace_subtract(trace, &other);
-        trace_release(&other);
+        curve_subtract(curve, &other);
+        curve_release(&other);
     }
     if (!error && !isnan(recorded->less_mean)) {
-        if (!trace_reserve(&other, trace->count))
+        if (!curve_reserve(&other, curve->count))
             error = out_of_memory_for("a check");
         else
-            trace_moving_mean(trace, recorded->less_mean, &other);
+            curve_moving_mean(curve, recorded->less_mean, &other);
         for (int64_t i = 0; i < other.count; i++)
-            trace->value[i] -= other.value[i];
-        trace_release(&other);
+            curve->value[i] -= other.value[i];
+        curve_release(&other);
     }
-    for (int64_t i = 0; i < trace->count && recorded->absolute; i++)
-        trace->value[i] = fabs(trace->value[i]);
+    for (int64_t i = 0; i < curve->count && recorded->absolute; i++)
+        curve->value[i] = fabs(curve->value[i]);
     return error;
 }
 
@@ -355,16 +355,16 @@ static struct error *measure(const struct measurement *measurement, double *valu
         if (isnan(recorded.after))
             return NULL;
     }
-    struct trace trace = {0, NULL, NULL};
-    struct error *error = make_trace(measurement, &recorded, &trace);
+    struct curve curve = {0, NULL, NULL};
+    struct error *error = make_curve(measurement, &recorded, &curve);
     if (!error) {
-        *value = trace.count ? take(&trace, &recorded) : NAN;
+        *value = curve.count ? take(&curve, &recorded) : NAN;
         if (!isfinite(*value))
-            *value = measure_nothing(measurement, why_not(&trace, recorded.take));
-        if (!is_finite(&trace))
+            *value = measure_nothing(measurement, why_not(&curve, recorded.take));
+        if (!is_finite(&curve))
             *value = measure_nothing(measurement, NOTHING_NOT_FINITE);
     }
-    trace_release(&trace);
+    curve_release(&curve);
     return error;
 }
 

@@ -1,4 +1,4 @@
-/* Numbers over time; see curve.h. */
+/* Curves of runs and of measurements; see curve.h. */
 #include "page/curve.h"
 
 #include <stdlib.h>
@@ -8,36 +8,15 @@
 struct error *curve_make(const struct csv *csv, int time, int value, double time_scale,
                          double scale, double shift, struct curve *curve)
 {
-    *curve = (struct curve){.time = memory_allocate((size_t)(2 * csv->rows + 1) * sizeof(double))};
-    if (!curve->time)
+    if (!curve_reserve(curve, csv->rows))
         return out_of_memory_for("a comparison");
-    curve->value = curve->time + csv->rows;
     for (int64_t i = 0; i < csv->rows; i++) {
         const double t = csv_number(csv, i, time) * time_scale + shift;
         const double v = csv_number(csv, i, value) * scale;
-        if (!isfinite(t) || !isfinite(v))
-            continue;
-        curve->time[curve->count] = t;
-        curve->value[curve->count++] = v;
+        if (isfinite(t) && isfinite(v))
+            curve_add(curve, t, v);
     }
     return NULL;
-}
-
-double curve_at(const struct curve *curve, double time)
-{
-    int64_t low = 0, high = curve->count - 1;
-    if (curve->count < 2 || !(time >= curve->time[0]) || !(time <= curve->time[high]))
-        return NAN;
-    while (high - low > 1) {
-        const int64_t middle = (low + high) / 2;
-        if (curve->time[middle] <= time)
-            low = middle;
-        else
-            high = middle;
-    }
-    const double length = curve->time[high] - curve->time[low];
-    const double part = length > 0.0 ? (time - curve->time[low]) / length : 0.0;
-    return curve->value[low] + part * (curve->value[high] - curve->value[low]);
 }
 
 bool curve_overlaps(const struct curve *run, const struct curve *data, double shift)

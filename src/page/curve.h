@@ -1,21 +1,14 @@
-/* Numbers over time, of runs and of measurements, and how far they are apart. */
+/* Curves of runs and of measurements, and how far they are apart. */
 #ifndef BOLIDE_PAGE_CURVE_H
 #define BOLIDE_PAGE_CURVE_H
 
 #include "base/csv.h"
+#include "base/curve.h"
 #include "base/error.h"
-
-struct curve {
-    int64_t count;
-    double *time, *value; /* SI; one block of memory: free(time) */
-};
 
 /* The finite rows of two columns of CSV, in units of the scales; times are SHIFT later. */
 struct error *curve_make(const struct csv *csv, int time, int value, double time_scale,
                          double scale, double shift, struct curve *curve);
-
-/* The value at TIME, between its points; NAN outside. */
-double curve_at(const struct curve *curve, double time);
 
 double curve_largest(const struct curve *curve);
 

@@ -6,9 +6,9 @@
 #include "running.h"
 
 #if defined(BOLIDE_SANITIZE)
-enum { STEPS = 30, RANDOM = 3 };
+enum { STEPS = 30, RANDOM = 3, CHANGES = 0 };
 #else
-enum { STEPS = 180, RANDOM = 9 };
+enum { STEPS = 180, RANDOM = 9, CHANGES = 5 };
 #endif
 enum { BURNT = 180 }; /* steps, within which a charge has burnt */
 
@@ -228,7 +228,7 @@ static void two_materials_are_conserved(void **state)
         }
         end(run);
     }
-    assert_true(changes >= RANDOM / 4); /* the few steps under sanitizers change none */
+    assert_true(changes >= CHANGES); /* the few steps under sanitizers need not change any */
 }
 
 /* It burns at once, and its products in the air. */
