@@ -164,6 +164,22 @@ static bool is_cut(const struct gas *gas, const struct gas_strip *strip, int axi
     return inside && (cut->open[axis][0] || cut->open[axis][1]);
 }
 
+/* Whether a plane beyond an end of block B along AXIS holds what block A does, which is still. */
+static bool is_plane_alike(const struct gas *gas, int32_t a, int axis, int32_t b, int32_t plane)
+{
+    const struct cell_block *block = &gas->cells->block[b];
+    const int rows = block->count[0] * block->count[1] * block->count[2] / block->count[axis];
+    const int32_t first = gas->cells->block[a].first;
+    bool alike = true;
+    for (int n = 0; n < gas->layout.fields && alike; n++) {
+        const double *number = cell_plane(&gas->halo, gas->cells->dimension, axis, plane, n);
+        const double own = n == gas->layout.open ? 1.0 : gas->u[n][first];
+        for (int row = 0; row < rows; row++)
+            alike &= number[row] == own;
+    }
+    return alike;
+}
+
 /* Whether block A and what is beyond an end of block B along AXIS hold the same gas at rest. */
 static bool is_alike_beyond(const struct gas *gas, int32_t a, int axis, int32_t b, int side)
 {
@@ -172,8 +188,11 @@ static bool is_alike_beyond(const struct gas *gas, int32_t a, int axis, int32_t 
     bool alike = true;
     for (int k = 0; seam && k < seam->besides && alike; k++)
         alike = is_alike(gas, a, seam->beside[k]);
-    for (int depth = 0; !seam && depth < gas->halo.depth && alike; depth++)
-        alike = is_alike(gas, a, halo->beyond[b][side][depth].block);
+    for (int depth = 0; !seam && depth < gas->halo.depth && alike; depth++) {
+        const struct cell_source *source = &halo->beyond[b][side][depth];
+        alike = source->block >= 0 ? is_alike(gas, a, source->block)
+                                   : is_plane_alike(gas, a, axis, b, source->at);
+    }
     return alike;
 }
 
@@ -182,7 +201,7 @@ static bool is_alike_beyond(const struct gas *gas, int32_t a, int axis, int32_t 
 static bool may_sleep(const struct gas *gas, const struct gas_strip *strip, int axis)
 {
     const int32_t first = strip->block[0], last = strip->block[strip->count - 1];
-    if (strip->open || gas->block[first].awake || is_cut(gas, strip, axis))
+    if (gas->block[first].awake || is_cut(gas, strip, axis))
         return false;
     for (int k = 1; k < strip->count; k++)
         if (!is_alike(gas, first, strip->block[k]))
@@ -200,6 +219,18 @@ static void copy_block(struct gas *gas, int32_t b)
     gas->block[b].same = true;
 }
 
+/* Whether a plane beyond an end of block B along AXIS has no shock. */
+static bool is_plane_calm(const struct gas *gas, int axis, int32_t b, int32_t plane)
+{
+    const struct cell_block *block = &gas->cells->block[b];
+    const int rows = block->count[0] * block->count[1] * block->count[2] / block->count[axis];
+    const double *shock = cell_plane(&gas->halo, gas->cells->dimension, axis, plane, GAS_SHOCK);
+    bool calm = true;
+    for (int row = 0; row < rows; row++)
+        calm &= shock[row] == 0.0;
+    return calm;
+}
+
 /* Whether no shock is beyond an end of block B along AXIS. */
 static bool is_calm_beyond(const struct gas *gas, int axis, int32_t b, int side)
 {
@@ -208,8 +239,11 @@ static bool is_calm_beyond(const struct gas *gas, int axis, int32_t b, int side)
     bool calm = true;
     for (int k = 0; seam && k < seam->besides; k++)
         calm &= !gas->block[seam->beside[k]].shocked;
-    for (int depth = 0; !seam && depth < gas->halo.depth && calm; depth++)
-        calm = !gas->block[halo->beyond[b][side][depth].block].shocked;
+    for (int depth = 0; !seam && depth < gas->halo.depth && calm; depth++) {
+        const struct cell_source *source = &halo->beyond[b][side][depth];
+        calm = source->block >= 0 ? !gas->block[source->block].shocked
+                                  : is_plane_calm(gas, axis, b, source->at);
+    }
     return calm;
 }
 
@@ -218,30 +252,31 @@ static bool is_calm_beyond(const struct gas *gas, int axis, int32_t b, int side)
 static bool is_calm(const struct gas *gas, const struct gas_strip *strip, int axis)
 {
     const int32_t first = strip->block[0], last = strip->block[strip->count - 1];
-    bool calm = !strip->open;
+    bool calm = true;
     for (int k = 0; k < strip->count; k++)
         calm &= !gas->block[strip->block[k]].shocked && !gas->block[strip->block[k]].stale;
     return calm && is_calm_beyond(gas, axis, first, 0) && is_calm_beyond(gas, axis, last, 1);
 }
 
-/* Which strips of a sweep along AXIS sleep; blocks of the others are awake for the rest of the
- * step. */
-static void choose_strips(struct gas *gas, const struct simulation *simulation, int axis)
+/* Which strips of a sweep along AXIS sleep, of those with planes beyond their ends (OPEN) or of the
+ * others; blocks that do not are awake for the rest of the step. */
+static void choose_strips(struct gas *gas, const struct simulation *simulation, int axis, bool open)
 {
     struct gas_strips *strips = &gas->strips[axis];
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t s = 0; s < strips->count; s++)
-        strips->strip[s].sleeps = may_sleep(gas, &strips->strip[s], axis);
+        if (strips->strip[s].open == open) {
+            strips->strip[s].sleeps = may_sleep(gas, &strips->strip[s], axis);
+            strips->strip[s].calm = is_calm(gas, &strips->strip[s], axis);
+        }
 #pragma omp parallel for schedule(static) num_threads(simulation->threads)
     for (int32_t s = 0; s < strips->count; s++)
-        strips->strip[s].calm = is_calm(gas, &strips->strip[s], axis);
-#pragma omp parallel for schedule(static) num_threads(simulation->threads)
-    for (int32_t s = 0; s < strips->count; s++)
-        for (int k = 0; k < strips->strip[s].count; k++) {
+        for (int k = 0; strips->strip[s].open == open && k < strips->strip[s].count; k++) {
             const int32_t b = strips->strip[s].block[k];
             if (!strips->strip[s].sleeps) {
                 gas->block[b].awake = true;
                 gas->block[b].same = false;
+                gas->block[b].sweeps++;
             } else if (!gas->block[b].same)
                 copy_block(gas, b);
         }
@@ -335,7 +370,7 @@ static struct error *sweep_once(struct gas *gas, struct simulation *simulation, 
     memcpy(sweep.from, gas->u, sizeof sweep.from);
     memcpy(sweep.to, gas->other, sizeof sweep.to);
     const struct gas_strips *strips = &gas->strips[axis];
-    choose_strips(gas, simulation, axis);
+    choose_strips(gas, simulation, axis, false);
     gas_forget_fluxes(gas, axis);
     cell_halo_start(&gas->halo, cells, axis, sweep.from);
     bool own = sweep_strips(gas, simulation, &sweep, 0, strips->early);
@@ -345,8 +380,10 @@ static struct error *sweep_once(struct gas *gas, struct simulation *simulation, 
     struct error *error = gas_fill_planes(gas, simulation, axis, begin + 0.5 * dt);
     TRY(ranks_agree(simulation->ranks, error));
     simulation_end_waiting(simulation);
+    choose_strips(gas, simulation, axis, true);
     own |= sweep_strips(gas, simulation, &sweep, strips->early, strips->count);
     own |= gas_match_seams(gas, axis, dt, simulation->threads);
+    simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
     *spent = ranks_maximum(simulation->ranks, own) > 0.0;
     return NULL;
 }

@@ -325,14 +325,15 @@ static struct error *take_in(struct cell_blocks *cells, const char *packed, int3
     return NULL;
 }
 
-static struct error *divide(struct cell_blocks *cells)
+static struct error *divide(struct cell_blocks *cells, const int64_t *work, bool anyway, bool *anew)
 {
     struct block_weight *own = memory_allocate(((size_t)cells->blocks + 1) * sizeof *own);
     struct error *error = ranks_agree(cells->ranks, own ? NULL : out_of_memory_for("cells"));
     for (int32_t b = 0; b < cells->blocks && !error; b++)
-        own[b] = (struct block_weight){cells->block[b].key, cells_of(&cells->block[b])};
+        own[b] = (struct block_weight){cells->block[b].key, (double)cells_of(&cells->block[b]) *
+                                                                (work ? (double)work[b] : 1.0)};
     if (!error)
-        error = partition_divide(cells->partition, own, cells->blocks);
+        error = partition_divide(cells->partition, own, cells->blocks, anyway, anew);
     free(own);
     return error;
 }
@@ -361,12 +362,13 @@ static struct error *migrate(struct cell_blocks *cells)
     return error;
 }
 
-struct error *cell_blocks_distribute(struct cell_blocks *cells, bool recut)
+struct error *cell_blocks_distribute(struct cell_blocks *cells, const int64_t *work, bool recut)
 {
     if (!cells->ranks->joined)
         return NULL;
     if (!recut && !partition_is_uneven(cells->partition))
         return NULL;
-    TRY(divide(cells));
-    return migrate(cells);
+    bool anew;
+    TRY(divide(cells, work, recut, &anew));
+    return anew ? migrate(cells) : NULL;
 }

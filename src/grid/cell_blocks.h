@@ -131,8 +131,9 @@ const struct cell_block *cell_block_at(const struct cell_blocks *cells, int leve
                                        const int64_t at[3]);
 
 /* Collective: every block goes to the rank that owns it. With RECUT, or where the ranks' work since
- * the cut differs by too much, blocks are divided anew. */
-struct error *cell_blocks_distribute(struct cell_blocks *cells, bool recut);
+ * the cut differs by too much, blocks are divided anew. WORK: of each block, how often its cells
+ * were computed; NULL: all as often. */
+struct error *cell_blocks_distribute(struct cell_blocks *cells, const int64_t *work, bool recut);
 
 /* Collective: loads or saves every STATE field, as "cells/NAME", in the order of keys. */
 struct error *cell_blocks_visit(struct cell_blocks *cells, struct visitor *visitor);

@@ -44,7 +44,7 @@ static struct error *commit(void *store)
     return NULL;
 }
 
-static struct error *distribute(void *store) { return cell_blocks_distribute(store, true); }
+static struct error *distribute(void *store) { return cell_blocks_distribute(store, NULL, true); }
 
 static struct error *visit(void *store, struct visitor *visitor)
 {

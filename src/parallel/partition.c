@@ -14,6 +14,9 @@ static int compare_weights(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
+/* A cut is kept unless another leaves the rank that works longest this much less of it. */
+static const double least_gain = 0.05;
+
 /* A block goes to the part that its middle falls into. The blocks at one place of the curve may
  * still belong to several ranks. */
 static void cut_curve(uint64_t *cut, int parts, struct block_weight *block, int64_t count)
@@ -34,6 +37,21 @@ static void cut_curve(uint64_t *cut, int parts, struct block_weight *block, int6
     }
     while (part < parts)
         cut[++part] = UINT64_MAX;
+}
+
+/* The most work of a part of the sorted BLOCKS. */
+static double most_work(const uint64_t *cut, int parts, const struct block_weight *block,
+                        int64_t count)
+{
+    double most = 0.0, work = 0.0;
+    int part = 0;
+    for (int64_t k = 0; k < count; k++) {
+        for (; part + 1 < parts && block[k].key >= cut[part + 1]; part++)
+            work = 0.0;
+        work += block[k].weight;
+        most = work > most ? work : most;
+    }
+    return most;
 }
 
 void partition_free(struct partition *partition)
@@ -69,10 +87,13 @@ bool partition_is_uneven(const struct partition *partition)
     return mean > 0.01 && most > imbalance_limit * mean;
 }
 
-struct error *partition_divide(struct partition *partition, struct block_weight *own, int32_t count)
+struct error *partition_divide(struct partition *partition, struct block_weight *own, int32_t count,
+                               bool anyway, bool *anew)
 {
     const struct ranks *ranks = partition->ranks;
+    const size_t cuts = (size_t)ranks->size + 1;
     struct block_weight *all = NULL;
+    uint64_t *cut = memory_allocate(cuts * sizeof *cut);
     int64_t blocks = 0;
     double held = 0.0;
     for (int32_t b = 0; b < count; b++)
@@ -81,12 +102,23 @@ struct error *partition_divide(struct partition *partition, struct block_weight 
     const bool measured = ranks_minimum(ranks, held > 0.0 && each <= 0.0 ? 0.0 : 1.0) > 0.0;
     for (int32_t b = 0; b < count && measured; b++)
         own[b].weight *= each;
-    if (!partition->cut)
-        partition->cut = memory_allocate(((size_t)ranks->size + 1) * sizeof *partition->cut);
-    TRY(ranks_agree(ranks, partition->cut ? NULL : out_of_memory_for("the blocks of the ranks")));
-    TRY(ranks_gather(ranks, -1, own, count, sizeof *own, (void **)&all, &blocks));
-    cut_curve(partition->cut, ranks->size, all, blocks);
+    struct error *error =
+        ranks_agree(ranks, cut ? NULL : out_of_memory_for("the blocks of the ranks"));
+    if (!error)
+        error = ranks_gather(ranks, -1, own, count, sizeof *own, (void **)&all, &blocks);
+    if (!error)
+        cut_curve(cut, ranks->size, all, blocks);
+    *anew =
+        !error && (anyway || !partition->cut ||
+                   most_work(cut, ranks->size, all, blocks) <
+                       (1.0 - least_gain) * most_work(partition->cut, ranks->size, all, blocks));
+    if (*anew) {
+        free(partition->cut);
+        partition->cut = cut;
+        cut = NULL;
+    }
+    free(cut);
     free(all);
     partition->work = 0.0;
-    return NULL;
+    return error;
 }

@@ -14,7 +14,7 @@ struct partition {
     double work;   /* seconds that this rank has computed for its blocks since the cut */
 };
 
-/* How much is in a block, in any unit: particles, cells. */
+/* How much work a block is, in any unit: particles, cells that were computed. */
 struct block_weight {
     uint64_t key;
     double weight;
@@ -30,8 +30,9 @@ int partition_owner(const struct partition *partition, uint64_t key);
 bool partition_is_uneven(const struct partition *partition);
 
 /* Collective: divides the blocks of all ranks. OWN are the COUNT blocks that this rank holds
- * something of; what the rank has worked counts for them by their weight. */
-struct error *partition_divide(struct partition *partition, struct block_weight *own,
-                               int32_t count);
+ * something of; what the rank has worked counts for them by their weight. Unless ANYWAY, a cut that gains little
+ * is not made; ANEW: one was. */
+struct error *partition_divide(struct partition *partition, struct block_weight *own, int32_t count,
+                               bool anyway, bool *anew);
 
 #endif
