@@ -281,6 +281,16 @@ void bins_settle(struct bins *bins, uint64_t order, int threads)
     bins->order = order;
 }
 
+struct error *bins_follow(struct bins *bins, uint64_t order, int32_t before, int32_t count)
+{
+    if (!memory_reserve((void **)&bins->home, &bins->home_capacity, count, bins->home_capacity, 1))
+        return out_of_memory_for("the cells of %d particles", count);
+    for (int32_t i = before; i < count; i++)
+        bins->home[i] = 0;
+    bins->order = order;
+    return NULL;
+}
+
 void bins_free(struct bins *bins)
 {
     free(bins->list);

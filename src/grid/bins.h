@@ -66,6 +66,9 @@ struct error *bins_make(struct bins *bins, const struct binned *particles, int t
 /* Tells that the particles are now stored in the order of the bins' list: bin after bin, which is
  * BINNED's order ORDER. */
 void bins_settle(struct bins *bins, uint64_t order, int threads);
+/* Tells that a few of the COUNT particles of BINNED's order ORDER are others than before, which are
+ * not where they are stored, and that all from BEFORE on are new. */
+struct error *bins_follow(struct bins *bins, uint64_t order, int32_t before, int32_t count);
 void bins_free(struct bins *bins);
 
 /* The cell of a block along each axis, from its number in the block. */

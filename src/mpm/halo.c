@@ -125,6 +125,8 @@ static bool merge(struct mpm *mpm, const struct meeting *m)
         far && place &&
         memory_reserve((void **)&halo->bin, &halo->bin_capacity, count + 1, 0, sizeof *halo->bin) &&
         memory_reserve((void **)&halo->far, &halo->far_capacity, count + 1, 0, sizeof *halo->far) &&
+        memory_reserve((void **)&halo->near, &halo->near_capacity, count + 1, 0,
+                       sizeof *halo->near) &&
         memory_reserve((void **)&halo->goes, &halo->goes_capacity, m->sends, 0,
                        sizeof *halo->goes) &&
         memory_reserve((void **)&halo->comes, &halo->comes_capacity, m->fars, 0,
@@ -136,6 +138,7 @@ static bool merge(struct mpm *mpm, const struct meeting *m)
             const bool is_far = f < m->fars && far[f].layer == g &&
                                 (b == own->begin[g + 1] || far[f].key < own->bin[b].key);
             halo->far[to] = is_far;
+            halo->near[to] = false;
             if (is_far) {
                 halo->bin[to] = (struct bin){.key = far[f++].key};
             } else {
@@ -146,8 +149,10 @@ static bool merge(struct mpm *mpm, const struct meeting *m)
         }
         halo->begin[g + 1] = to;
     }
-    for (int32_t k = 0; k < m->sends && done; k++)
+    for (int32_t k = 0; k < m->sends && done; k++) {
         halo->goes[k] = place[m->send[k].item];
+        halo->near[halo->goes[k]] = true;
+    }
     for (int32_t k = 0; k < m->fars && done; k++) {
         int32_t at = halo->begin[m->far[k].layer];
         while (!halo->far[at] || halo->bin[at].key != m->far[k].key)
@@ -250,18 +255,31 @@ static double *patch_of(struct mpm *mpm, int32_t bin, size_t field)
                       bin - mpm->halo.begin[g]);
 }
 
-void mpm_exchange(struct mpm *mpm, struct simulation *simulation, size_t field)
+static size_t patch_bytes(const struct mpm *mpm, size_t field)
+{
+    const struct grid_field *first =
+        (const struct grid_field *)((const char *)&mpm->layer[0] + field);
+    return (size_t)(mpm->layer[0].grid.patch * first->stride) * sizeof(double);
+}
+
+void mpm_exchange_start(struct mpm *mpm, struct simulation *simulation, size_t field)
 {
     struct halo *halo = &mpm->halo;
     if (simulation->ranks->size < 2)
         return;
-    const struct grid_field *first = (const struct grid_field *)((char *)&mpm->layer[0] + field);
-    const size_t bytes = (size_t)(mpm->layer[0].grid.patch * first->stride) * sizeof(double);
+    const size_t bytes = patch_bytes(mpm, field);
     for (int32_t k = 0; k < halo->exchange.goes; k++)
         memcpy((char *)halo->exchange.buffer + (size_t)k * bytes,
                patch_of(mpm, halo->goes[k], field), bytes);
-    simulation_end_phase(simulation, PHASE_BLOCKS, "grid update");
     exchange_start(&halo->exchange, NULL, bytes, halo->received);
+}
+
+void mpm_exchange_finish(struct mpm *mpm, struct simulation *simulation, size_t field)
+{
+    struct halo *halo = &mpm->halo;
+    if (simulation->ranks->size < 2)
+        return;
+    const size_t bytes = patch_bytes(mpm, field);
     exchange_finish(&halo->exchange);
     simulation_end_waiting(simulation);
     for (int32_t k = 0; k < halo->exchange.comes; k++)
@@ -269,11 +287,20 @@ void mpm_exchange(struct mpm *mpm, struct simulation *simulation, size_t field)
                bytes);
 }
 
+void mpm_exchange(struct mpm *mpm, struct simulation *simulation, size_t field)
+{
+    mpm_exchange_start(mpm, simulation, field);
+    if (simulation->ranks->size > 1)
+        simulation_end_phase(simulation, PHASE_BLOCKS, "grid update");
+    mpm_exchange_finish(mpm, simulation, field);
+}
+
 void mpm_free_halo(struct mpm *mpm)
 {
     struct halo *halo = &mpm->halo;
     free(halo->bin);
     free(halo->far);
+    free(halo->near);
     free(halo->goes);
     free(halo->comes);
     free(halo->received);

@@ -170,6 +170,7 @@ static void mpm_destroy(void *solver)
     free(mpm->layer_of_body);
     free(mpm->layer_at_rest);
     free(mpm->block);
+    free(mpm->leaving);
     bins_free(&mpm->bins);
     mpm_free_halo(mpm);
     loads_free(&mpm->loads);

@@ -58,9 +58,9 @@ struct layer {
 
 /* Bins of other ranks whose patches this rank needs, and own ones that others need. */
 struct halo {
-    struct bin *bin; /* own and others', by layer and key */
-    bool *far;       /* of each: another rank's */
-    int64_t bin_capacity, far_capacity;
+    struct bin *bin;  /* own and others', by layer and key */
+    bool *far, *near; /* of each: another rank's, one whose patch goes */
+    int64_t bin_capacity, far_capacity, near_capacity;
     int32_t begin[BIN_GROUPS + 1]; /* of the layers */
     int32_t *goes, *comes; /* bins whose patches go, in the order of the items to send, and come */
     int64_t goes_capacity, comes_capacity;
@@ -83,7 +83,9 @@ struct mpm {
     bool has_plane[3][2]; /* node index of the low and the high wall across each axis */
     struct bins bins;
     struct block *block; /* of storage, as bins have it */
-    int64_t block_capacity;
+    int32_t leaves;      /* particles that are where another rank owns cells */
+    struct send_item *leaving;
+    int64_t block_capacity, leaving_capacity;
     int layers;
     uint8_t *layer_of_body, *layer_at_rest;
     struct layer layer[BIN_GROUPS];
@@ -156,12 +158,21 @@ BOLIDE_INLINE bool mpm_is_far(const struct mpm *mpm, const struct layer *layer, 
     return mpm->halo.far && mpm->halo.far[layer->bins.bin - mpm->halo.bin + bin];
 }
 
+/* Whether a bin's patch goes to other ranks. */
+BOLIDE_INLINE bool mpm_is_near(const struct mpm *mpm, const struct layer *layer, int32_t bin)
+{
+    return mpm->halo.far && mpm->halo.near[layer->bins.bin - mpm->halo.bin + bin];
+}
+
 /* Collective: finds the bins of other ranks that own ones meet, and gives the layers all of them;
  * quick while the keys of all ranks' bins stay. ERROR is the rank's own so far. */
 struct error *mpm_find_halo(struct mpm *mpm, const struct simulation *simulation,
                             struct error *error);
-/* Room to exchange patches. Collective: brings the patches of a field. */
+/* Room to exchange patches. Collective: brings the patches of a field; between start and finish a
+ * rank works on bins that are not near. */
 struct error *mpm_reserve_halo(struct mpm *mpm);
+void mpm_exchange_start(struct mpm *mpm, struct simulation *simulation, size_t field);
+void mpm_exchange_finish(struct mpm *mpm, struct simulation *simulation, size_t field);
 void mpm_exchange(struct mpm *mpm, struct simulation *simulation, size_t field);
 void mpm_free_halo(struct mpm *mpm);
 

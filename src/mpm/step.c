@@ -125,31 +125,52 @@ static struct error *store_by_bins(struct mpm *mpm, struct simulation *simulatio
     return NULL;
 }
 
-/* Whether a particle has come to a block of another rank. */
-static bool has_left(const struct mpm *mpm, const struct simulation *simulation)
+/* The particles that have come to blocks of other ranks. */
+static struct error *find_leaving(struct mpm *mpm, const struct simulation *simulation)
 {
-    bool away = false;
-    for (int32_t b = 0; b < mpm->bins.count && !away; b++)
-        away = partition_owner(&simulation->partition, mpm->bins.bin[b].key) !=
-               simulation->ranks->rank;
-    return away;
+    const struct bins *bins = &mpm->bins;
+    mpm->leaves = 0;
+    for (int32_t b = 0; b < bins->count; b++) {
+        const struct bin *bin = &bins->bin[b];
+        const int owner = partition_owner(&simulation->partition, bin->key);
+        const int32_t count = bin->cell[BLOCK_CELLS];
+        if (owner == simulation->ranks->rank)
+            continue;
+        if (!memory_reserve((void **)&mpm->leaving, &mpm->leaving_capacity, mpm->leaves + count,
+                            mpm->leaves, sizeof *mpm->leaving))
+            return out_of_memory_for("particles that go to other ranks");
+        for (int32_t k = 0; k < count; k++)
+            mpm->leaving[mpm->leaves++] = (struct send_item){owner, bins->list[bin->first + k]};
+    }
+    return NULL;
 }
 
-/* Particles into cells, on the ranks that own these; where the case has space divided anew, that
- * is done here. */
+/* Particles into cells, on the ranks that own these. Space is divided anew where the case has it
+ * so, or some rank has worked longer. */
 static struct error *place_particles(struct mpm *mpm, struct simulation *simulation)
 {
+    enum { STEPS = 20 }; /* between comparisons of work */
     struct particles *p = mpm->particles;
     const int64_t every = simulation->problem->input->run.rebalance;
     const bool several = simulation->ranks->size > 1,
-               recut = several && every > 0 && simulation->step % every == 0;
+               recut = several && every > 0 && simulation->step % every == 0,
+               uneven = several && simulation->step % STEPS == 0 &&
+                        partition_is_uneven(&simulation->partition);
+    const int32_t before = p->count;
     struct error *error = find_bins(mpm, simulation);
-    double goes = several && !error && (recut || has_left(mpm, simulation));
+    if (several && !error)
+        error = find_leaving(mpm, simulation);
+    double goes = several && !error && mpm->leaves > 0;
     TRY(ranks_agree_on(simulation->ranks, error, &goes, 1));
-    if (goes > 0.0) {
+    if (recut || uneven)
         TRY(particles_distribute(p, recut));
-        return find_bins(mpm, simulation);
+    else if (goes > 0.0) {
+        TRY(particles_hand_over(p, mpm->leaving, mpm->leaves));
+        error = bins_follow(&mpm->bins, p->order, before, p->count);
+        TRY(ranks_agree(simulation->ranks, error));
     }
+    if (recut || uneven || goes > 0.0)
+        TRY(find_bins(mpm, simulation));
     return (double)mpm->bins.moved > moved_limit * p->count ? store_by_bins(mpm, simulation) : NULL;
 }
 
@@ -203,21 +224,36 @@ static struct error *refresh_grid(struct mpm *mpm, struct simulation *simulation
     return ranks_agree(simulation->ranks, error ? error : reserve_fields(mpm, simulation));
 }
 
-/* Collective: mass, momentum and force of all nodes, and where shocks are. */
-static struct error *sum_particles(struct mpm *mpm, struct simulation *simulation)
+/* Particles give to their patches, those of bins that are NEAR other ranks or of the others. */
+static void scatter(struct mpm *mpm, const struct simulation *simulation, bool near)
 {
-    struct error *error = NULL;
     for (int g = 0; g < mpm->layers; g++) {
         struct layer *layer = &mpm->layer[g];
         const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
         for (int32_t b = 0; b < layer->bins.count; b++)
-            if (!mpm_is_far(mpm, layer, b))
+            if (!mpm_is_far(mpm, layer, b) && mpm_is_near(mpm, layer, b) == near)
                 transfer_scatter(&transfer, b);
     }
+}
+
+/* Collective: mass, momentum and force of all nodes, and where shocks are. */
+static struct error *sum_particles(struct mpm *mpm, struct simulation *simulation)
+{
+    struct error *error = NULL;
+    const size_t field = offsetof(struct layer, main);
+    const bool early = !mpm_is_by_faces(&mpm->parameters); /* patches are complete at once */
+    if (simulation->ranks->size > 1)
+        scatter(mpm, simulation, true);
+    if (early)
+        mpm_exchange_start(mpm, simulation, field);
+    scatter(mpm, simulation, false);
     mpm_push_faces(mpm, simulation);
     simulation_end_phase(simulation, PHASE_BLOCKS, "particles to grid");
-    mpm_exchange(mpm, simulation, offsetof(struct layer, main));
+    if (early)
+        mpm_exchange_finish(mpm, simulation, field);
+    else
+        mpm_exchange(mpm, simulation, field);
     double shocks = 0.0;
     for (int g = 0; g < mpm->layers && !error; g++) {
         error = mpm_sum_nodes(mpm, simulation, &mpm->layer[g]);
@@ -269,26 +305,37 @@ struct error *mpm_prepare(void *solver, struct simulation *simulation, struct li
     return NULL;
 }
 
-/* New velocities of all particles from their nodes; with SCATTER their momentum goes back to
- * nodes. */
-static void find_velocities(struct mpm *mpm, struct simulation *simulation,
-                            struct transfer_step step, bool scatter)
+/* New velocities of particles from their nodes, those of bins that are NEAR other ranks or of the
+ * others; with SCATTER their momentum goes back to nodes. */
+static void gather_velocities(struct mpm *mpm, const struct simulation *simulation,
+                              struct transfer_step step, bool scatter, bool near)
 {
     for (int g = 0; g < mpm->layers; g++) {
         struct layer *layer = &mpm->layer[g];
         const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
         for (int32_t b = 0; b < layer->bins.count; b++) {
-            if (mpm_is_far(mpm, layer, b))
+            if (mpm_is_far(mpm, layer, b) || mpm_is_near(mpm, layer, b) != near)
                 continue;
             grid_spread(&layer->grid, &layer->main, b);
             if (!layer->prescribed)
                 transfer_velocity(&transfer, b, step, scatter);
         }
     }
+}
+
+static void find_velocities(struct mpm *mpm, struct simulation *simulation,
+                            struct transfer_step step, bool scatter)
+{
+    const size_t field = offsetof(struct layer, back);
+    if (simulation->ranks->size > 1)
+        gather_velocities(mpm, simulation, step, scatter, true);
+    if (scatter)
+        mpm_exchange_start(mpm, simulation, field);
+    gather_velocities(mpm, simulation, step, scatter, false);
     simulation_end_phase(simulation, PHASE_BLOCKS, "grid to particles");
     if (scatter)
-        mpm_exchange(mpm, simulation, offsetof(struct layer, back));
+        mpm_exchange_finish(mpm, simulation, field);
 }
 
 /* New states of all particles of a layer from nodal velocities: those of the second field or,

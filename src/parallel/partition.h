@@ -30,8 +30,8 @@ int partition_owner(const struct partition *partition, uint64_t key);
 bool partition_is_uneven(const struct partition *partition);
 
 /* Collective: divides the blocks of all ranks. OWN are the COUNT blocks that this rank holds
- * something of; what the rank has worked counts for them by their weight. Unless ANYWAY, a cut that gains little
- * is not made; ANEW: one was. */
+ * something of; what the rank has worked counts for them by their weight. Unless ANYWAY, a cut that
+ * gains little is not made; ANEW: one was. */
 struct error *partition_divide(struct partition *partition, struct block_weight *own, int32_t count,
                                bool anyway, bool *anew);
 

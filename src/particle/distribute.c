@@ -7,15 +7,16 @@
 #include "particle/particles.h"
 
 /* Divides the blocks as the particles lie now. */
-static struct error *divide(struct particles *p)
+static struct error *divide(struct particles *p, bool anyway)
 {
     struct block_weight *own = memory_allocate((size_t)p->blocks * sizeof *own);
     struct error *error =
         ranks_agree(p->ranks, own ? NULL : out_of_memory_for("particles that go to other ranks"));
     for (int32_t b = 0; b < p->blocks && !error; b++)
         own[b] = (struct block_weight){p->block[b].key, p->block[b].count};
+    bool anew;
     if (!error)
-        error = partition_divide(p->partition, own, p->blocks);
+        error = partition_divide(p->partition, own, p->blocks, anyway, &anew);
     free(own);
     return error;
 }
@@ -116,18 +117,73 @@ static struct error *send_some(struct particles *p, struct exchange *exchange,
     return error;
 }
 
+/* Collective: those that leave go; those that come are in their places, and behind all others. */
+static struct error *send_all(struct particles *p, struct leaving *leaving)
+{
+    struct exchange exchange = {0};
+    struct error *error = NULL;
+    while (!error && ranks_maximum(p->ranks, leaving->count - leaving->sent) > 0.0)
+        error = send_some(p, &exchange, leaving);
+    exchange_free(&exchange);
+    return error;
+}
+
 static struct error *migrate(struct particles *p)
 {
     struct leaving leaving = {0};
-    struct exchange exchange = {0};
     struct error *error = ranks_agree(p->ranks, find_leaving(p, &leaving));
-    while (!error && ranks_maximum(p->ranks, leaving.count - leaving.sent) > 0.0)
-        error = send_some(p, &exchange, &leaving);
+    if (!error)
+        error = send_all(p, &leaving);
     for (int32_t k = leaving.filled; k < leaving.sent; k++)
         particles_delete(p, leaving.send[k].item);
-    exchange_free(&exchange);
     free(leaving.send);
     return error ? error : ranks_agree(p->ranks, particles_commit(p));
+}
+
+static int by_item(const void *a, const void *b)
+{
+    const struct send_item *x = a, *y = b;
+    return (x->item > y->item) - (x->item < y->item);
+}
+
+/* The last particles move to the places that are left empty, COUNT of them by index. Storage ends
+ * where they end. */
+static void close_gaps(struct particles *p, const struct send_item *gap, int32_t count)
+{
+    int32_t total = p->count + p->pending, last = count - 1;
+    for (int32_t k = 0; k <= last; k++) {
+        for (; last >= k && gap[last].item == total - 1; last--)
+            total--;
+        if (last < k)
+            break;
+        total--;
+        for (int f = 0; f < p->fields; f++) {
+            const size_t bytes = field_bytes(&p->field[f]);
+            char *data = p->field[f].data;
+            memcpy(data + (size_t)gap[k].item * bytes, data + (size_t)total * bytes, bytes);
+        }
+    }
+    p->count = total;
+    p->pending = 0;
+    while (p->blocks > 0 && p->block[p->blocks - 1].first >= total)
+        p->blocks--;
+    if (p->blocks > 0)
+        p->block[p->blocks - 1].count = total - p->block[p->blocks - 1].first;
+}
+
+struct error *particles_hand_over(struct particles *particles, struct send_item *leaving,
+                                  int32_t count)
+{
+    struct leaving all = {.count = count, .send = leaving};
+    TRY(send_all(particles, &all));
+    const int32_t empty = all.sent - all.filled;
+    if (empty > 1)
+        qsort(leaving + all.filled, (size_t)empty, sizeof *leaving, by_item);
+    close_gaps(particles, leaving + all.filled, empty);
+    particles->order++;
+    return ranks_agree(particles->ranks, particles->blocks == 0 && particles->count > 0
+                                             ? particles_sort(particles)
+                                             : NULL);
 }
 
 struct error *particles_distribute(struct particles *particles, bool recut)
@@ -136,7 +192,7 @@ struct error *particles_distribute(struct particles *particles, bool recut)
         return particles_sort(particles);
     if (recut || partition_is_uneven(particles->partition)) {
         TRY(ranks_agree(particles->ranks, particles_sort(particles)));
-        TRY(divide(particles));
+        TRY(divide(particles, recut));
     }
     return migrate(particles);
 }

@@ -13,6 +13,7 @@
 #include "base/vector.h"
 #include "material/history.h"
 #include "parallel/block.h"
+#include "parallel/exchange.h"
 #include "parallel/partition.h"
 #include "parallel/ranks.h"
 
@@ -107,6 +108,12 @@ struct error *particles_arrange(struct particles *particles, const int32_t *list
  * work since the cut differs by too much, and with RECUT in any case, the blocks are divided
  * anew. */
 struct error *particles_distribute(struct particles *particles, bool recut);
+
+/* Collective: the COUNT particles LEAVING, which the list may not repeat, go to the ranks that it
+ * names. Storage stays as it is, but those that come are in their places or behind the last, and
+ * the last are where others have left: quick where few go. */
+struct error *particles_hand_over(struct particles *particles, struct send_item *leaving,
+                                  int32_t count);
 
 /* The key of the block that X lies in. */
 uint64_t particles_block_key(const struct particles *particles, const double x[3]);
