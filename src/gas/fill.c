@@ -319,30 +319,39 @@ static void fill_blocks(struct filling *f)
         fill_block(f, &f->gas->cells->block[b]);
 }
 
-/* Fills all cells again as long as what is in them asks for finer ones. */
+/* Collective: the blocks of LIST, COUNT of them, replace those that there are, and are filled. */
+static struct error *fill_again(struct filling *f, struct simulation *simulation,
+                                struct cell_block *list, int64_t count)
+{
+    struct cell_blocks *cells = f->gas->cells, old;
+    struct error *error = cell_blocks_renew(cells, list, (int32_t)count, &old);
+    cell_blocks_destroy(&old);
+    TRY(ranks_agree(simulation->ranks, error));
+    TRY(cell_blocks_distribute(cells, true));
+    gas_bind(f->gas, cells);
+    fill_blocks(f);
+    return ranks_agree(simulation->ranks, f->error);
+}
+
+/* Collective: fills all cells again as long as what is in them asks for finer ones. */
 static struct error *fill_levels(struct filling *f, struct simulation *simulation)
 {
     struct gas *gas = f->gas;
     const int times =
         gas->cells->levels > 1 && gas->parameters.regrid > 0 ? 2 * gas->cells->levels : 0;
-    for (int k = 0; k < times && !f->error; k++) {
-        struct cell_blocks old;
+    for (int k = 0; k < times; k++) {
         struct cell_block *list = NULL;
         int64_t count = 0;
         bool changed = false;
         gas->cells->threads = simulation->threads;
         TRY(gas_plan(gas, simulation));
-        TRY(gas_derive(gas, simulation, NULL));
+        TRY(ranks_agree(simulation->ranks, gas_derive(gas, simulation, NULL)));
         TRY(gas_ask_levels(gas, simulation->threads, &list, &count, &changed));
         if (!changed)
             break;
-        struct error *error = cell_blocks_renew(gas->cells, list, (int32_t)count, &old);
-        cell_blocks_destroy(&old);
-        TRY(error);
-        gas_bind(gas, gas->cells);
-        fill_blocks(f);
+        TRY(fill_again(f, simulation, list, count));
     }
-    return f->error;
+    return NULL;
 }
 
 /* Fills all cells with what the bodies say, and in its place with the blast of `start`. */
@@ -353,7 +362,7 @@ static struct error *fill_all(struct filling *f, struct simulation *simulation)
     TRY(ranks_agree(simulation->ranks, f->error));
     struct error *error = gas_compute_start(f->gas, simulation, &blast);
     if (!error)
-        error = ranks_agree(simulation->ranks, fill_levels(f, simulation));
+        error = fill_levels(f, simulation);
     if (!error && blast)
         error = gas_fill_blast(f->gas, simulation, blast);
     f->gas->start_reach = 0.0;
@@ -369,6 +378,8 @@ struct error *gas_fill(void *solver, struct simulation *simulation)
     struct cell_blocks *cells = gas->cells;
     struct filling f = {.simulation = simulation, .gas = gas};
     TRY(ranks_agree(simulation->ranks, cell_blocks_fill(cells)));
+    if (cells->levels > 1)
+        TRY(cell_blocks_distribute(cells, true));
     gas_bind(f.gas, cells);
     f.around = pressure_around(&f);
     struct error *error = case_replacements(input, &f.replacements);

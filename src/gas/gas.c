@@ -254,14 +254,14 @@ struct error *gas_plan(struct gas *gas, struct simulation *simulation)
     struct cell_blocks *cells = gas->cells;
     struct error *error = NULL;
     for (int n = 0; n < gas->layout.written; n++) {
-        if (gas->other[n] && cells->count <= gas->room) /* a rank may have no cell */
+        if (gas->other[n] && cells->held <= gas->room) /* a rank may have no cell */
             continue;
         free(gas->other[n]);
-        gas->other[n] = memory_allocate(((size_t)cells->count + 1) * sizeof(double));
+        gas->other[n] = memory_allocate(((size_t)cells->held + 1) * sizeof(double));
         if (!gas->other[n])
             error = out_of_memory_for("cells");
     }
-    gas->room = cells->count > gas->room ? cells->count : gas->room;
+    gas->room = cells->held > gas->room ? cells->held : gas->room;
     if (!memory_reserve((void **)&gas->block, &gas->block_capacity, cells->blocks + 1, 0,
                         sizeof *gas->block))
         error = error_join(error, out_of_memory_for("blocks of cells"));
@@ -275,7 +275,9 @@ struct error *gas_plan(struct gas *gas, struct simulation *simulation)
         gas->block[b] = (struct gas_block){.awake = true, .shocked = true, .stale = true};
     gas_bind(gas, cells);
     TRY(ranks_agree(simulation->ranks, error));
-    return cell_halo_plan(&gas->halo, cells);
+    TRY(cell_halo_plan(&gas->halo, cells));
+    TRY(cell_copies_plan(&gas->copies, cells, gas->layout.written));
+    return gas_plan_seams(gas);
 }
 
 static struct error *gas_start(void *solver, struct simulation *simulation)
@@ -416,6 +418,7 @@ static void gas_destroy(void *solver)
     gas_free_seams(gas);
     gas_free_markers(gas);
     cell_halo_free(&gas->halo);
+    cell_copies_free(&gas->copies);
     for (int n = 0; n < GAS_FIELDS; n++)
         free(gas->other[n]);
     free(gas->block);

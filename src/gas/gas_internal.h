@@ -4,6 +4,7 @@
 
 #include "gas/gas_phases.h"
 #include "gas/sweep.h"
+#include "grid/cell_copies.h"
 #include "model/cell_population.h"
 
 struct muscl_hancock_options {
@@ -32,13 +33,15 @@ struct gas_seam_end {
     double flux[STRIP_ROWS][THROUGH_NUMBERS];
 };
 
-/* Of an axis. */
+/* Of an axis. Ends of copies of fine blocks beside coarse ones of this rank are behind its own, in
+ * the order in which other ranks send what flowed through them. */
 struct gas_seams {
-    int32_t count;
+    int32_t count, own; /* with those of copies, without */
     int64_t capacity;
-    struct gas_seam_end *end;
-    int32_t (*of)[2]; /* of each block: the numbers of its low and high end, -1 where there is none;
-                       * NULL: there is one level */
+    struct gas_seam_end *end, *came;
+    int32_t (*of)[2]; /* of each block and copy: the numbers of its low and high end, -1 where there
+                       * is none; NULL: there is one level */
+    struct exchange exchange;
 };
 
 /* What is known of a block, so that gas at rest costs nothing. */
@@ -78,8 +81,9 @@ struct gas {
         start_center;   /* of a blast that has yet to be put into cells, and how far */
     double start_reach; /* it reaches, m: they are to be fine; 0: there is none */
     struct cell_halo halo;
+    struct cell_copies copies;
     uint64_t order; /* of the blocks when the strips were made */
-    int32_t room;   /* cells for which `other` has room */
+    int32_t room;   /* cells, with copies, for which `other` has room */
     int lasting;    /* regions of fine cells that stay when all explosives have burnt */
     struct gas_block *block;
     int64_t block_capacity;
@@ -199,9 +203,10 @@ void gas_free_strips(struct gas *gas);
 /* Collective: a sweep along AXIS over DT. */
 struct error *gas_sweep(struct gas *gas, struct simulation *simulation, int axis, double dt);
 
-/* Where levels meet (seams.c): ends of blocks are found; planes of AXIS there are filled; fluxes
- * are forgotten before a sweep, kept of each strip that is swept, and then coarse cells take those
- * of fine faces, which is true where that leaves one with hardly anything. */
+/* Where levels meet (seams.c): ends of blocks are found, which is collective; planes of AXIS there
+ * are filled; fluxes are forgotten before a sweep, kept of each strip that is swept, passed to
+ * other ranks, which is collective, and then coarse cells take those of fine faces, which is true
+ * where that leaves one with hardly anything. */
 struct error *gas_plan_seams(struct gas *gas);
 void gas_free_seams(struct gas *gas);
 struct gas_seam_end *gas_seam_end(const struct gas *gas, int axis, int32_t block, int side);
@@ -209,9 +214,10 @@ void gas_fill_seams(const struct gas *gas, int axis, int threads);
 void gas_forget_fluxes(const struct gas *gas, int axis);
 void gas_keep_fluxes(const struct gas *gas, int axis, const struct gas_strip *strip,
                      const struct gas_through *through);
+void gas_pass_fluxes(struct gas *gas, int axis);
 bool gas_match_seams(const struct gas *gas, int axis, double dt, int threads);
 
-/* Levels follow waves (regrid.c): the blocks that the state asks for, *COUNT of them in *LIST,
+/* Levels follow waves (regrid.c), collective: the blocks that the state asks for, *COUNT of them in *LIST,
  * which is NULL where they are those that there are; and the state moves into them when it is
  * time. */
 struct error *gas_ask_levels(struct gas *gas, int threads, struct cell_block **list, int64_t *count,

@@ -208,8 +208,6 @@ static void refuse_levels(const struct simulation *simulation,
     const char *text = NULL;
     if (parameters->method.index == GAS_LAX_WENDROFF)
         text = "several levels of cells need the method muscl-hancock";
-    else if (simulation->ranks->size > 1)
-        text = "several levels of cells run on one rank";
     else if (!eos_traits(&of[material[0]].eos).gas || !eos_traits(&of[material[1]].eos).gas)
         text = "several levels of cells hold gases, no liquids";
     else if (input->output.maps.count > 0 || !isnan(parameters->ambient))

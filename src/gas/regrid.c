@@ -133,7 +133,7 @@ static int64_t add_wants(const struct gas *gas, int32_t b, const struct demand *
             at[axis] = block->corner[axis] + (to[axis] < 0   ? -1
                                               : to[axis] > 0 ? block->count[axis]
                                                              : 0);
-        const struct cell_block *there = own ? block : cell_block_cover(cells, block->level, at);
+        const struct cell_block *there = own ? block : cell_block_known(cells, block->level, at);
         if (!there)
             continue;
         struct cell_want *of = &want[wants++];
@@ -147,7 +147,22 @@ static int64_t add_wants(const struct gas *gas, int32_t b, const struct demand *
     return wants;
 }
 
-/* The blocks that the state asks for, *COUNT of them. */
+/* Collective: the blocks that WANT, WANTS of this rank, and what the others want ask for, *COUNT of
+ * them. */
+static struct error *list_wanted(const struct cell_blocks *cells, const struct cell_want *want,
+                                 int64_t wants, struct cell_block **list, int64_t *count)
+{
+    void *all = NULL;
+    int64_t total = 0;
+    if (!cell_blocks_are_spread(cells))
+        return levels_list(cells, want, wants, list, count);
+    TRY(ranks_gather(cells->ranks, -1, want, wants, sizeof *want, &all, &total));
+    struct error *error = ranks_agree(cells->ranks, levels_list(cells, all, total, list, count));
+    free(all);
+    return error;
+}
+
+/* Collective: the blocks that the state asks for, *COUNT of them. */
 static struct error *ask(const struct gas *gas, int threads, struct cell_block **list,
                          int64_t *count)
 {
@@ -156,28 +171,29 @@ static struct error *ask(const struct gas *gas, int threads, struct cell_block *
     struct demand *demand = memory_allocate((blocks + 1) * sizeof *demand);
     struct cell_want *want = memory_allocate((blocks * SIDES + 1) * sizeof *want);
     int64_t wants = 0;
-    struct error *error = demand && want ? NULL : out_of_memory_for("cells");
+    struct error *error =
+        ranks_agree(cells->ranks, demand && want ? NULL : out_of_memory_for("cells"));
     if (!error) {
 #pragma omp parallel for schedule(static) num_threads(threads)
         for (int32_t b = 0; b < cells->blocks; b++)
             demand[b] = demand_of(gas, b);
         for (int32_t b = 0; b < cells->blocks; b++)
             wants += add_wants(gas, b, &demand[b], want + wants);
-        error = levels_list(cells, want, wants, list, count);
+        error = list_wanted(cells, want, wants, list, count);
     }
     free(demand);
     free(want);
     return error;
 }
 
-/* Whether LIST, COUNT blocks, differs from those that CELLS have. */
+/* Whether LIST, COUNT blocks, differs from those that CELLS have on all ranks. */
 static bool differs(const struct cell_blocks *cells, const struct cell_block *list, int64_t count)
 {
-    bool differs = count != cells->blocks;
-    for (int64_t b = 0; b < count && !differs; b++) {
-        const struct cell_block *own = cell_block_find(cells, list[b].key);
-        differs = !own || own->level != list[b].level;
-    }
+    const bool spread = cell_blocks_are_spread(cells);
+    const struct cell_block *all = spread ? cells->whole.block : cells->block;
+    bool differs = count != (spread ? cells->whole.count : cells->blocks);
+    for (int64_t b = 0; b < count && !differs; b++)
+        differs = list[b].key != all[b].key || list[b].level != all[b].level;
     return differs;
 }
 
@@ -293,6 +309,18 @@ static void fill_block(const struct transfer *t, const struct cell_block *new)
             }
 }
 
+/* Collective: what this rank's part of LIST, COUNT blocks, takes from other ranks comes to it. */
+static struct error *fetch(struct gas *gas, struct cell_block *list, int64_t count)
+{
+    bool moved;
+    struct error *error = cell_blocks_fetch(gas->cells, list, count, &moved);
+    if (error)
+        free(list);
+    else if (moved)
+        gas_bind(gas, gas->cells);
+    return error;
+}
+
 /* The state moves into LIST, COUNT blocks, which is taken over. */
 static struct error *move(struct gas *gas, struct cell_block *list, int64_t count, int threads)
 {
@@ -327,7 +355,8 @@ struct error *gas_regrid(struct gas *gas, struct simulation *simulation)
     TRY(gas_ask_levels(gas, simulation->threads, &list, &count, &changed));
     if (!changed)
         return NULL;
-    TRY(move(gas, list, count, simulation->threads));
+    TRY(fetch(gas, list, count));
+    TRY(ranks_agree(simulation->ranks, move(gas, list, count, simulation->threads)));
     TRY(gas_plan(gas, simulation));
-    return gas_derive(gas, simulation, NULL);
+    return ranks_agree(simulation->ranks, gas_derive(gas, simulation, NULL));
 }

@@ -211,9 +211,68 @@ void gas_free_seams(struct gas *gas)
 {
     for (int axis = 0; axis < 3; axis++) {
         free(gas->seams[axis].end);
+        free(gas->seams[axis].came);
         free(gas->seams[axis].of);
+        exchange_free(&gas->seams[axis].exchange);
         memset(&gas->seams[axis], 0, sizeof gas->seams[axis]);
     }
+}
+
+/* Adds an end of BLOCK along AXIS where it meets another level; of a copy only a fine one beside a
+ * coarse block of this rank. False when memory is out. */
+static bool add_end(const struct cell_blocks *cells, int axis, int32_t block, int side,
+                    struct gas_seams *seams)
+{
+    struct gas_seam_end end = {.block = block, .side = side};
+    seams->of[block][side] = -1;
+    find_beside(cells, &cells->block[block], axis, side, &end);
+    if (end.besides == 0 ||
+        (block >= cells->blocks && (end.beside[0] >= cells->blocks ||
+                                    cells->block[end.beside[0]].level < cells->block[block].level)))
+        return true;
+    if (!memory_reserve((void **)&seams->end, &seams->capacity, seams->count + 1, seams->count,
+                        sizeof *seams->end))
+        return false;
+    seams->of[block][side] = seams->count;
+    seams->end[seams->count++] = end;
+    return true;
+}
+
+static struct error *find_ends(const struct cell_blocks *cells, int axis, struct gas_seams *seams)
+{
+    const int32_t all = cells->blocks + cells->copies;
+    seams->of = memory_allocate(((size_t)all + 1) * sizeof *seams->of);
+    bool room = seams->of != NULL;
+    for (int32_t b = 0; b < all && room; b++) {
+        for (int side = 0; side < 2 && room; side++)
+            room = add_end(cells, axis, b, side, seams);
+        if (b < cells->blocks)
+            seams->own = seams->count;
+    }
+    return room ? NULL : out_of_memory_for("strips of cells");
+}
+
+/* Collective: what flows through fine ends beside copies goes to the ranks that have the blocks. */
+static struct error *plan_fluxes(const struct cell_blocks *cells, struct gas_seams *seams)
+{
+    struct send_item *send = memory_allocate(((size_t)seams->own + 1) * sizeof *send);
+    seams->came = memory_allocate((size_t)(seams->count - seams->own + 1) * sizeof *seams->came);
+    struct error *error = ranks_agree(
+        cells->ranks, send && seams->came ? NULL : out_of_memory_for("strips of cells"));
+    int32_t sends = 0;
+    for (int32_t k = 0; k < seams->own && !error; k++) {
+        const struct gas_seam_end *end = &seams->end[k];
+        const struct cell_block *beside = &cells->block[end->beside[0]];
+        if (end->beside[0] >= cells->blocks && beside->level > cells->block[end->block].level)
+            send[sends++] = (struct send_item){partition_owner(cells->partition, beside->key), k};
+    }
+    if (!error)
+        error = exchange_plan(&seams->exchange, cells->ranks, send, sends);
+    if (!error)
+        error = ranks_agree(cells->ranks, exchange_reserve(&seams->exchange, sizeof *seams->end));
+    assert(error || seams->exchange.comes == seams->count - seams->own);
+    free(send);
+    return error;
 }
 
 struct error *gas_plan_seams(struct gas *gas)
@@ -221,25 +280,26 @@ struct error *gas_plan_seams(struct gas *gas)
     const struct cell_blocks *cells = gas->cells;
     gas_free_seams(gas);
     for (int axis = 0; axis < cells->dimension && cells->levels > 1; axis++) {
-        struct gas_seams *seams = &gas->seams[axis];
-        seams->of = memory_allocate(((size_t)cells->blocks + 1) * sizeof *seams->of);
-        if (!seams->of)
-            return out_of_memory_for("strips of cells");
-        for (int32_t b = 0; b < cells->blocks; b++)
-            for (int side = 0; side < 2; side++) {
-                struct gas_seam_end end = {.block = b, .side = side};
-                seams->of[b][side] = -1;
-                find_beside(cells, &cells->block[b], axis, side, &end);
-                if (end.besides == 0)
-                    continue;
-                if (!memory_reserve((void **)&seams->end, &seams->capacity, seams->count + 1,
-                                    seams->count, sizeof *seams->end))
-                    return out_of_memory_for("strips of cells");
-                seams->of[b][side] = seams->count;
-                seams->end[seams->count++] = end;
-            }
+        TRY(ranks_agree(cells->ranks, find_ends(cells, axis, &gas->seams[axis])));
+        if (cells->ranks->joined)
+            TRY(plan_fluxes(cells, &gas->seams[axis]));
     }
     return NULL;
+}
+
+void gas_pass_fluxes(struct gas *gas, int axis)
+{
+    struct gas_seams *seams = &gas->seams[axis];
+    if (!cell_blocks_are_spread(gas->cells))
+        return;
+    exchange_start(&seams->exchange, seams->end, sizeof *seams->end, seams->came);
+    exchange_finish(&seams->exchange);
+    for (int32_t k = seams->own; k < seams->count; k++) {
+        struct gas_seam_end *end = &seams->end[k];
+        const struct gas_seam_end *came = &seams->came[k - seams->own];
+        end->swept = came->swept;
+        memcpy(end->flux, came->flux, sizeof end->flux);
+    }
 }
 
 struct gas_seam_end *gas_seam_end(const struct gas *gas, int axis, int32_t block, int side)

@@ -46,6 +46,16 @@ static bool is_continued(const struct cell_blocks *cells, const struct cell_bloc
     return cell_block_at(cells, b->level, at) != NULL;
 }
 
+/* Whether what is beyond an end of block B along AXIS is of other ranks or outside a face. */
+static bool is_open(const struct gas *gas, int axis, int32_t b, int side)
+{
+    const struct gas_seam_end *seam = gas_seam_end(gas, axis, b, side);
+    bool open = gas->halo.axis[axis].waits[b][side] && !seam;
+    for (int k = 0; seam && k < seam->besides; k++)
+        open |= seam->beside[k] >= gas->cells->blocks;
+    return open;
+}
+
 /* Strips begin at multiples of the longest row, where the domain does, and after blocks of
  * others. */
 static void make_strips(const struct gas *gas, int axis, struct gas_strips *strips)
@@ -66,8 +76,7 @@ static void make_strips(const struct gas *gas, int axis, struct gas_strips *stri
             last = at;
         }
         strip->waits = halo->waits[b][0] || halo->waits[last][1];
-        strip->open = (halo->waits[b][0] && !gas_seam_end(gas, axis, b, 0)) ||
-                      (halo->waits[last][1] && !gas_seam_end(gas, axis, last, 1));
+        strip->open = is_open(gas, axis, b, 0) || is_open(gas, axis, last, 1);
         const struct cell_block *low = &cells->block[b], *high = &cells->block[last];
         strip->bounds =
             round || low->corner[axis] == cell_domain_end(cells, low->level, axis, 0) ||
@@ -127,7 +136,6 @@ static struct error *plan_strips(struct gas *gas, const struct cell_blocks *cell
     if (gas->order == cells->order)
         return NULL;
     gas->order = cells->order;
-    TRY(gas_plan_seams(gas));
     for (int axis = 0; axis < cells->dimension; axis++) {
         struct gas_strips *strips = &gas->strips[axis];
         free_strips(strips);
@@ -373,15 +381,18 @@ static struct error *sweep_once(struct gas *gas, struct simulation *simulation, 
     choose_strips(gas, simulation, axis, false);
     gas_forget_fluxes(gas, axis);
     cell_halo_start(&gas->halo, cells, axis, sweep.from);
+    cell_copies_start(&gas->copies, cells, sweep.from);
     bool own = sweep_strips(gas, simulation, &sweep, 0, strips->early);
     simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
     cell_halo_finish(&gas->halo, axis);
+    cell_copies_finish(&gas->copies, cells, gas->u);
     gas_fill_seams(gas, axis, simulation->threads);
     struct error *error = gas_fill_planes(gas, simulation, axis, begin + 0.5 * dt);
     TRY(ranks_agree(simulation->ranks, error));
     simulation_end_waiting(simulation);
     choose_strips(gas, simulation, axis, true);
     own |= sweep_strips(gas, simulation, &sweep, strips->early, strips->count);
+    gas_pass_fluxes(gas, axis);
     own |= gas_match_seams(gas, axis, dt, simulation->threads);
     simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
     *spent = ranks_maximum(simulation->ranks, own) > 0.0;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "grid/cell_copies.h"
 #include "grid/levels.h"
 #include "parallel/block.h"
 #include "parallel/exchange.h"
@@ -46,7 +47,7 @@ static struct error *allocate(struct cell_blocks *cells)
     for (int k = 0; k < cells->fields; k++) {
         struct field *field = &cells->field[k];
         free(field->data);
-        field->data = memory_allocate(((size_t)cells->count + 1) * field_bytes(field));
+        field->data = memory_allocate(((size_t)cells->held + 1) * field_bytes(field));
         if (!field->data)
             return out_of_memory_for("cells");
     }
@@ -71,6 +72,13 @@ void cell_blocks_declare(struct cell_blocks *cells, const struct field_declarati
         cells->field[cells->fields++].declaration = more[k];
 }
 
+static void free_cover(struct cell_cover *cover)
+{
+    free(cover->block);
+    block_table_free(&cover->table);
+    *cover = (struct cell_cover){0};
+}
+
 void cell_blocks_destroy(struct cell_blocks *cells)
 {
     for (int k = 0; k < cells->fields; k++)
@@ -78,6 +86,7 @@ void cell_blocks_destroy(struct cell_blocks *cells)
     free(cells->block);
     free(cells->region);
     block_table_free(&cells->table);
+    free_cover(&cells->whole);
     memset(cells, 0, sizeof *cells);
 }
 
@@ -98,7 +107,7 @@ uint64_t cell_block_key(int dimension, int level, const int64_t at[3])
 const struct cell_block *cell_block_find(const struct cell_blocks *cells, uint64_t key)
 {
     const int32_t number = cells->table.slots ? block_table_find(&cells->table, key) : -1;
-    return number < 0 ? NULL : &cells->block[number];
+    return number < 0 || number >= cells->blocks ? NULL : &cells->block[number];
 }
 
 const struct cell_block *cell_block_at(const struct cell_blocks *cells, int level,
@@ -109,7 +118,7 @@ const struct cell_block *cell_block_at(const struct cell_blocks *cells, int leve
     return block && block->level == level ? block : NULL;
 }
 
-static int by_key(const void *a, const void *b)
+int cell_block_order(const void *a, const void *b)
 {
     const struct cell_block *first = a, *second = b;
     return first->key < second->key ? -1 : first->key > second->key;
@@ -158,6 +167,7 @@ static struct error *list_blocks(const struct cell_blocks *cells, struct cell_bl
 static struct error *place_blocks(struct cell_blocks *cells)
 {
     int64_t count = 0;
+    cells->copies = 0;
     if (!block_table_clear(&cells->table, cells->blocks + 1))
         return out_of_memory_for("cells");
     for (int32_t b = 0; b < cells->blocks; b++) {
@@ -168,7 +178,7 @@ static struct error *place_blocks(struct cell_blocks *cells)
         if (count > INT32_MAX)
             return error_new(ERROR_STATE, "more than %d cells on one rank", INT32_MAX);
     }
-    cells->count = (int32_t)count;
+    cells->count = cells->held = (int32_t)count;
     cells->order++;
     return NULL;
 }
@@ -199,56 +209,99 @@ static void place_cells(struct cell_blocks *cells)
     }
 }
 
-struct error *cell_blocks_fill(struct cell_blocks *cells)
+/* The COUNT blocks at BLOCK, which are taken over, replace those that there are; with COPIES of
+ * those of other ranks beside them. */
+static struct error *take_own(struct cell_blocks *cells, struct cell_block *block, int32_t count,
+                              bool copies)
 {
-    struct cell_block *list;
-    int64_t count = 0;
-    TRY(cells->levels > 1 ? levels_list(cells, NULL, 0, &list, &count)
-                          : list_blocks(cells, &list, &count));
-    qsort(list, (size_t)count, sizeof *list, by_key);
-    const struct slice slice = ranks_slice(cells->ranks, count);
-    cells->blocks = (int32_t)(slice.end - slice.begin);
-    free(cells->block);
-    cells->block = memory_allocate(((size_t)cells->blocks + 1) * sizeof *cells->block);
-    if (cells->block)
-        memcpy(cells->block, list + slice.begin, (size_t)cells->blocks * sizeof *list);
-    free(list);
-    if (!cells->block)
-        return out_of_memory_for("cells");
-    TRY(place_blocks(cells));
-    TRY(allocate(cells));
-    place_cells(cells);
-    return NULL;
-}
-
-struct error *cell_blocks_take(struct cell_blocks *cells, struct cell_block *block, int32_t count)
-{
-    qsort(block, (size_t)count, sizeof *block, by_key);
+    qsort(block, (size_t)count, sizeof *block, cell_block_order);
     free(cells->block);
     cells->block = block;
     cells->blocks = count;
     TRY(place_blocks(cells));
+    if (copies)
+        TRY(cell_copies_add(cells));
     TRY(allocate(cells));
     place_cells(cells);
     return NULL;
 }
 
-struct error *cell_blocks_renew(struct cell_blocks *cells, struct cell_block *block, int32_t count,
+/* Whether this rank has block B of all COUNT, which has KEY: before space is divided its slice of
+ * them. */
+static bool is_own(const struct cell_blocks *cells, uint64_t key, int64_t b, int64_t count)
+{
+    const struct slice slice = ranks_slice(cells->ranks, count);
+    return cells->partition->cut ? partition_owner(cells->partition, key) == cells->ranks->rank
+                                 : b >= slice.begin && b < slice.end;
+}
+
+struct error *cell_blocks_take(struct cell_blocks *cells, struct cell_block *list, int32_t count)
+{
+    int32_t blocks = 0;
+    if (!cell_blocks_are_spread(cells))
+        return take_own(cells, list, count, false);
+    qsort(list, (size_t)count, sizeof *list, cell_block_order);
+    free_cover(&cells->whole);
+    cells->whole.block = list;
+    cells->whole.count = count;
+    if (!block_table_clear(&cells->whole.table, count + 1))
+        return out_of_memory_for("cells");
+    for (int32_t b = 0; b < count; b++) {
+        block_table_add(&cells->whole.table, list[b].key);
+        blocks += is_own(cells, list[b].key, b, count);
+    }
+    struct cell_block *own = memory_allocate(((size_t)blocks + 1) * sizeof *own);
+    if (!own)
+        return out_of_memory_for("cells");
+    blocks = 0;
+    for (int32_t b = 0; b < count; b++)
+        if (is_own(cells, list[b].key, b, count))
+            own[blocks++] = list[b];
+    return take_own(cells, own, blocks, true);
+}
+
+/* This rank's slice of COUNT blocks. */
+static struct error *take_slice(struct cell_blocks *cells, struct cell_block *list, int64_t count)
+{
+    const struct slice slice = ranks_slice(cells->ranks, count);
+    const int32_t blocks = (int32_t)(slice.end - slice.begin);
+    struct cell_block *own = memory_allocate(((size_t)blocks + 1) * sizeof *own);
+    qsort(list, (size_t)count, sizeof *list, cell_block_order);
+    if (own)
+        memcpy(own, list + slice.begin, (size_t)blocks * sizeof *list);
+    free(list);
+    return own ? take_own(cells, own, blocks, false) : out_of_memory_for("cells");
+}
+
+struct error *cell_blocks_fill(struct cell_blocks *cells)
+{
+    struct cell_block *list;
+    int64_t count = 0;
+    if (cells->levels < 2) {
+        TRY(list_blocks(cells, &list, &count));
+        return take_slice(cells, list, count);
+    }
+    TRY(levels_list(cells, NULL, 0, &list, &count));
+    return cell_blocks_take(cells, list, (int32_t)count);
+}
+
+struct error *cell_blocks_renew(struct cell_blocks *cells, struct cell_block *list, int32_t count,
                                 struct cell_blocks *old)
 {
     *old = *cells;
     old->region = NULL;
     cells->block = NULL;
+    cells->whole = (struct cell_cover){0};
     cells->table = (struct block_table){0};
     for (int k = 0; k < cells->fields; k++)
         cells->field[k].data = NULL;
-    return cell_blocks_take(cells, block, count);
+    return cell_blocks_take(cells, list, count);
 }
 
 struct error *cell_blocks_visit(struct cell_blocks *cells, struct visitor *visitor)
 {
     if (cells->levels > 1)
-        TRY(levels_visit(cells, visitor));
+        TRY(ranks_agree(cells->ranks, levels_visit(cells, visitor)));
     if (ranks_sum(cells->ranks, cells->blocks) == 0) /* they are to be loaded */
         TRY(ranks_agree(cells->ranks, cell_blocks_fill(cells)));
     visitor->first = ranks_before(cells->ranks, cells->count);
@@ -307,8 +360,9 @@ static void unpack(struct cell_blocks *cells, const struct cell_block *block, co
     }
 }
 
-/* COUNT packed blocks at PACKED become the rank's own. */
-static struct error *take_in(struct cell_blocks *cells, const char *packed, int32_t count)
+/* COUNT packed blocks at PACKED become the rank's own, with COPIES of those beside them. */
+static struct error *take_in(struct cell_blocks *cells, const char *packed, int32_t count,
+                             bool copies)
 {
     const size_t bytes = bytes_that_go(cells);
     struct cell_block *block = memory_allocate(((size_t)count + 1) * sizeof *block);
@@ -316,7 +370,7 @@ static struct error *take_in(struct cell_blocks *cells, const char *packed, int3
         return out_of_memory_for("cells");
     for (int32_t b = 0; b < count; b++)
         memcpy(&block[b], packed + (size_t)b * bytes, sizeof *block);
-    TRY(cell_blocks_take(cells, block, count));
+    TRY(take_own(cells, block, count, copies));
     for (int32_t b = 0; b < count; b++) {
         struct cell_block came;
         memcpy(&came, packed + (size_t)b * bytes, sizeof came);
@@ -338,27 +392,37 @@ static struct error *divide(struct cell_blocks *cells, const int64_t *work, bool
     return error;
 }
 
-/* All blocks go to their owners, packed; those that stay too. */
-static struct error *migrate(struct cell_blocks *cells)
+/* Blocks go where SEND, so many, says, packed, be it to this rank; what comes takes their place,
+ * with COPIES of those beside it. */
+static struct error *pass_blocks(struct cell_blocks *cells, const struct send_item *send,
+                                 int32_t sends, bool copies)
 {
-    const size_t bytes = bytes_that_go(cells), blocks = (size_t)cells->blocks;
-    struct send_item *send = memory_allocate((blocks + 1) * sizeof *send);
-    char *packed = memory_allocate((blocks + 1) * bytes);
-    struct error *error =
-        ranks_agree(cells->ranks, send && packed ? NULL : out_of_memory_for("cells"));
+    const size_t bytes = bytes_that_go(cells);
+    char *packed = memory_allocate(((size_t)cells->blocks + 1) * bytes);
+    struct error *error = ranks_agree(cells->ranks, packed ? NULL : out_of_memory_for("cells"));
     void *came = NULL;
     int32_t count = 0;
-    for (int32_t b = 0; b < cells->blocks && !error; b++) {
-        send[b] = (struct send_item){partition_owner(cells->partition, cells->block[b].key), b};
+    for (int32_t b = 0; b < cells->blocks && !error; b++)
         pack(cells, &cells->block[b], packed + (size_t)b * bytes);
-    }
     if (!error)
-        error = exchange_once(cells->ranks, send, cells->blocks, packed, bytes, &came, &count);
+        error = exchange_once(cells->ranks, send, sends, packed, bytes, &came, &count);
     free(packed);
-    free(send);
     if (!error)
-        error = ranks_agree(cells->ranks, take_in(cells, came, count));
+        error = ranks_agree(cells->ranks, take_in(cells, came, count, copies));
     free(came);
+    return error;
+}
+
+/* All blocks go to their owners; those that stay too. */
+static struct error *migrate(struct cell_blocks *cells)
+{
+    struct send_item *send = memory_allocate(((size_t)cells->blocks + 1) * sizeof *send);
+    struct error *error = ranks_agree(cells->ranks, send ? NULL : out_of_memory_for("cells"));
+    for (int32_t b = 0; b < cells->blocks && !error; b++)
+        send[b] = (struct send_item){partition_owner(cells->partition, cells->block[b].key), b};
+    if (!error)
+        error = pass_blocks(cells, send, cells->blocks, true);
+    free(send);
     return error;
 }
 
@@ -371,4 +435,66 @@ struct error *cell_blocks_distribute(struct cell_blocks *cells, const int64_t *w
     bool anew;
     TRY(divide(cells, work, recut, &anew));
     return anew ? migrate(cells) : NULL;
+}
+
+/* How many keys a block of LEVEL covers. */
+static uint64_t keys_of(int dimension, int level)
+{
+    const int blocks = cell_block_side(dimension) / block_cells(dimension);
+    uint64_t keys = 1;
+    for (int side = blocks << level; side > 1; side /= 2)
+        keys *= 8; /* of all axes, be they there or not */
+    return keys;
+}
+
+/* Sends of blocks to be made, and whether some go to other ranks. */
+struct sends {
+    struct send_item *item;
+    int64_t capacity;
+    int32_t count;
+    bool away, failed;
+};
+
+/* Block B goes to the owners of all blocks of LIST, COUNT of them, that meet it. */
+static void send_to_meeting(const struct cell_blocks *cells, int32_t b,
+                            const struct cell_block *list, int64_t count, struct sends *sends)
+{
+    const struct cell_block *block = &cells->block[b];
+    const uint64_t end = block->key + keys_of(cells->dimension, block->level);
+    int64_t low = 0, high = count; /* list[low].key <= block->key < list[high].key */
+    int last = -1;
+    while (high - low > 1) {
+        const int64_t middle = (low + high) / 2;
+        *(list[middle].key <= block->key ? &low : &high) = middle;
+    }
+    for (int64_t k = low; k < count && list[k].key < end && !sends->failed; k++) {
+        const int owner = partition_owner(cells->partition, list[k].key);
+        if (list[k].key + keys_of(cells->dimension, list[k].level) <= block->key || owner == last)
+            continue;
+        sends->failed = !memory_reserve((void **)&sends->item, &sends->capacity, sends->count + 1,
+                                        sends->count, sizeof *sends->item);
+        if (!sends->failed)
+            sends->item[sends->count++] = (struct send_item){owner, b};
+        sends->away |= owner != cells->ranks->rank;
+        last = owner;
+    }
+}
+
+struct error *cell_blocks_fetch(struct cell_blocks *cells, const struct cell_block *list,
+                                int64_t count, bool *moved)
+{
+    struct sends sends = {0};
+    *moved = false;
+    if (!cell_blocks_are_spread(cells))
+        return NULL;
+    for (int32_t b = 0; b < cells->blocks; b++)
+        send_to_meeting(cells, b, list, count, &sends);
+    double away = sends.away;
+    struct error *error =
+        ranks_agree_on(cells->ranks, sends.failed ? out_of_memory_for("cells") : NULL, &away, 1);
+    *moved = !error && away > 0.0;
+    if (*moved)
+        error = pass_blocks(cells, sends.item, sends.count, false);
+    free(sends.item);
+    return error;
 }

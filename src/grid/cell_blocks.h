@@ -34,6 +34,13 @@ struct cell_region {
     int64_t low[3], high[3];
 };
 
+/* Blocks that cover the domain, in the order of their keys; `first` says nothing. */
+struct cell_cover {
+    int32_t count;
+    struct cell_block *block;
+    struct block_table table;
+};
+
 struct cell_blocks {
     int dimension;
     double edge; /* of a cell of level 0, m */
@@ -45,9 +52,12 @@ struct cell_blocks {
     const struct ranks *ranks;
     struct partition *partition;
     int threads;
-    int32_t blocks, count; /* of blocks and of cells */
+    int32_t blocks, count; /* of blocks and of cells of this rank */
+    int32_t copies, held;  /* of blocks of other ranks behind them (cell_copies.h), cells with those
+                            * of copies */
     struct cell_block *block;
-    struct block_table table; /* of the blocks by their keys */
+    struct block_table table; /* of the blocks and the copies by their keys */
+    struct cell_cover whole;  /* of several levels on several ranks: the blocks of all ranks */
     uint64_t order;           /* grows whenever blocks come or go */
     int fields;
     struct field field[CELL_BLOCK_FIELDS];
@@ -110,12 +120,28 @@ void cell_blocks_destroy(struct cell_blocks *cells);
  * the domain has more cells than can be counted. */
 struct error *cell_blocks_fill(struct cell_blocks *cells);
 
-/* The COUNT blocks of the list BLOCK, which is taken over and sorted, replace those that there are,
- * with all fields zero but ids and places. */
-struct error *cell_blocks_take(struct cell_blocks *cells, struct cell_block *block, int32_t count);
+/* The blocks of LIST, COUNT of them, which cover the domain and are taken over, replace those that
+ * there are, with all fields zero but ids and places. All ranks have the same list, and each gets
+ * the blocks that it owns. */
+struct error *cell_blocks_take(struct cell_blocks *cells, struct cell_block *list, int32_t count);
 /* The same; what there was goes to OLD, to be destroyed. */
-struct error *cell_blocks_renew(struct cell_blocks *cells, struct cell_block *block, int32_t count,
+struct error *cell_blocks_renew(struct cell_blocks *cells, struct cell_block *list, int32_t count,
                                 struct cell_blocks *old);
+
+/* Collective: before blocks are renewed with LIST, in the order of keys: this rank gets, in place
+ * of its blocks, all that its part of LIST meets, be they its own or of other ranks. *MOVED: the
+ * data of fields are elsewhere. */
+struct error *cell_blocks_fetch(struct cell_blocks *cells, const struct cell_block *list,
+                                int64_t count, bool *moved);
+
+/* Whether there are several levels of cells, and other ranks have some of them. */
+BOLIDE_INLINE bool cell_blocks_are_spread(const struct cell_blocks *cells)
+{
+    return cells->levels > 1 && cells->ranks->joined;
+}
+
+/* For qsort: by their keys. */
+int cell_block_order(const void *a, const void *b);
 
 /* The data of field NAME, which must exist; it holds until blocks come or go. */
 void *cell_blocks_field(const struct cell_blocks *cells, const char *name);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "grid/levels.h"
 #include "parallel/block.h"
 
 /* A plane that this rank needs: of the block with KEY, at place AT along the axis; who asks. */
@@ -87,8 +88,11 @@ static struct cell_source source_of(struct planning *p, const struct cell_block 
         source.at = (int32_t)(place.at - own->corner[p->axis]);
         return source;
     }
-    if (p->cells->levels > 1) /* on one rank */
-        return join(p, b, place);
+    if (p->cells->levels > 1) {
+        const struct cell_block *there = cell_block_known(p->cells, b->level, at);
+        if (!there || there->level != b->level)
+            return join(p, b, place);
+    }
     if (!memory_reserve((void **)&p->wanted, &p->wanted_capacity, p->count + 1, p->count,
                         sizeof *p->wanted) ||
         !memory_reserve((void **)&p->owner, &p->owner_capacity, p->count + 1, p->count,
@@ -98,7 +102,8 @@ static struct cell_source source_of(struct planning *p, const struct cell_block 
     }
     const int64_t side = cell_block_side(p->cells->dimension),
                   begin = block_of_cell(place.at, side) * side,
-                  corner = begin > p->cells->low[p->axis] ? begin : p->cells->low[p->axis];
+                  low = cell_domain_end(p->cells, b->level, p->axis, 0),
+                  corner = begin > low ? begin : low;
     const int32_t rank = partition_owner(p->cells->partition, key);
     p->wanted[p->count] = (struct wanted){key, (int32_t)(place.at - corner), p->cells->ranks->rank};
     p->owner[p->count] = (struct send_item){rank, p->count};

@@ -57,6 +57,17 @@ const struct cell_block *cell_block_cover(const struct cell_blocks *cells, int l
     return found < 0 ? NULL : &cells->block[found];
 }
 
+const struct cell_block *cell_block_known(const struct cell_blocks *cells, int level,
+                                          const int64_t at[3])
+{
+    if (!cell_blocks_are_spread(cells))
+        return cell_block_cover(cells, level, at);
+    const struct cell_cover *whole = &cells->whole;
+    const struct cover cover = {cells, whole->block, &whole->table};
+    const int32_t found = find(&cover, level, at);
+    return found < 0 ? NULL : &whole->block[found];
+}
+
 /* The block of LEVEL with index AT along each axis; false where it is outside the domain. */
 static bool block_at(const struct cell_blocks *cells, int level, const int64_t at[3],
                      struct cell_block *block)
@@ -237,8 +248,10 @@ struct error *levels_list(const struct cell_blocks *cells, const struct cell_wan
     block_table_free(&marks);
     *list = blocks.block;
     *count = blocks.count;
-    if (room)
+    if (room) {
+        qsort(blocks.block, (size_t)blocks.count, sizeof *blocks.block, cell_block_order);
         return NULL;
+    }
     free(blocks.block);
     *list = NULL;
     *count = 0;
@@ -277,18 +290,20 @@ static bool is_whole(const struct cell_blocks *cells, const struct cell_block *b
 
 struct error *levels_visit(struct cell_blocks *cells, struct visitor *visitor)
 {
-    int64_t count = cells->blocks;
+    const bool spread = cell_blocks_are_spread(cells);
+    const struct cell_block *all = spread ? cells->whole.block : cells->block;
+    int64_t count = spread ? cells->whole.count : cells->blocks;
+    const bool known = count > 0;
     TRY(visitor->visit(visitor, "levels/count", NUMBER_INT64, &count, 1, 1));
     if (count < 0 || count > INT32_MAX || (visitor->most && count > visitor->most))
         return error_new(ERROR_SYSTEM, "levels/count is %lld: a file of this size has 0 to %lld",
                          (long long)count, (long long)visitor->most);
-    const bool known = cells->blocks > 0;
     int64_t *number = memory_allocate(((size_t)count + 1) * 2 * sizeof *number);
     struct cell_block *block = memory_allocate(((size_t)count + 1) * sizeof *block);
     struct error *error = number && block ? NULL : out_of_memory_for("cells");
     for (int64_t b = 0; b < count && known && !error; b++) {
-        number[2 * b] = (int64_t)cells->block[b].key;
-        number[2 * b + 1] = cells->block[b].level;
+        number[2 * b] = (int64_t)all[b].key;
+        number[2 * b + 1] = all[b].level;
     }
     if (!error)
         error = visitor->visit(visitor, "levels/blocks", NUMBER_INT64, number, count, 2);

@@ -13,20 +13,24 @@ struct cell_want {
     int level;
 };
 
-/* All blocks of the domain, by no order: those that meet a region are of level 0, the others as
+/* All blocks of the domain, in the order of their keys: those that meet a region are of level 0, the others as
  * coarse as the WANTS, so many, allow while no two that touch, be it in a corner, differ by more
  * than a level. The faces of the domain lie on planes of two cells of the coarsest level. Free
  * *list. */
 struct error *levels_list(const struct cell_blocks *cells, const struct cell_want *want,
                           int64_t wants, struct cell_block **list, int64_t *count);
 
-/* Shows the keys and levels of the blocks to VISITOR, which may load them: then they come without
- * cells. */
+/* Shows the keys and levels of the blocks of all ranks to VISITOR, which may load them: then they
+ * come without cells. */
 struct error *levels_visit(struct cell_blocks *cells, struct visitor *visitor);
 
 /* The block, of any level, that covers cell AT of LEVEL, or the first part of it; NULL outside the
- * domain. */
+ * domain, and where neither the block nor a copy of it is on this rank. */
 const struct cell_block *cell_block_cover(const struct cell_blocks *cells, int level,
+                                          const int64_t at[3]);
+
+/* The same of the blocks of all ranks, which this rank knows but has not: without its cells. */
+const struct cell_block *cell_block_known(const struct cell_blocks *cells, int level,
                                           const int64_t at[3]);
 
 /* The index of cell AT, of the level of BLOCK, which holds it. */
