@@ -217,9 +217,9 @@ void gas_keep_fluxes(const struct gas *gas, int axis, const struct gas_strip *st
 void gas_pass_fluxes(struct gas *gas, int axis);
 bool gas_match_seams(const struct gas *gas, int axis, double dt, int threads);
 
-/* Levels follow waves (regrid.c), collective: the blocks that the state asks for, *COUNT of them in *LIST,
- * which is NULL where they are those that there are; and the state moves into them when it is
- * time. */
+/* Levels follow waves (regrid.c), collective: the blocks that the state asks for, *COUNT of them in
+ * *LIST, which is NULL where they are those that there are; and the state moves into them when it
+ * is time. */
 struct error *gas_ask_levels(struct gas *gas, int threads, struct cell_block **list, int64_t *count,
                              bool *changed);
 struct error *gas_regrid(struct gas *gas, struct simulation *simulation);
