@@ -15,8 +15,8 @@ struct cell_want {
 
 /* All blocks of the domain, in the order of their keys: those that meet a region are of level 0,
  * the others as coarse as the WANTS, so many, allow while no two that touch, be it in a corner,
- * differ by more than a level. The faces of the domain lie on planes of two cells of the coarsest level. Free
- * *list. */
+ * differ by more than a level. The faces of the domain lie on planes of two cells of the coarsest
+ * level. Free *list. */
 struct error *levels_list(const struct cell_blocks *cells, const struct cell_want *want,
                           int64_t wants, struct cell_block **list, int64_t *count);
 

@@ -54,9 +54,9 @@ kill_and_resume() {
 }
 kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-gas.yaml"
 kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-gas-two.yaml"
-kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-levels.yaml"
 explosives=$BOLIDE_SOURCE_DIR/tests/data/everything-explosives.yaml
 until=snapshots/000002.vtkhdf
+kill_and_resume "$BOLIDE_SOURCE_DIR/tests/data/everything-levels.yaml"
 kill_and_resume "$explosives"
 until=checkpoint.h5
 rm -rf two
