@@ -327,7 +327,7 @@ static struct error *fill_again(struct filling *f, struct simulation *simulation
     struct error *error = cell_blocks_renew(cells, list, (int32_t)count, &old);
     cell_blocks_destroy(&old);
     TRY(ranks_agree(simulation->ranks, error));
-    TRY(cell_blocks_distribute(cells, true));
+    TRY(cell_blocks_distribute(cells, NULL, true));
     gas_bind(f->gas, cells);
     fill_blocks(f);
     return ranks_agree(simulation->ranks, f->error);
@@ -379,7 +379,7 @@ struct error *gas_fill(void *solver, struct simulation *simulation)
     struct filling f = {.simulation = simulation, .gas = gas};
     TRY(ranks_agree(simulation->ranks, cell_blocks_fill(cells)));
     if (cells->levels > 1)
-        TRY(cell_blocks_distribute(cells, true));
+        TRY(cell_blocks_distribute(cells, NULL, true));
     gas_bind(f.gas, cells);
     f.around = pressure_around(&f);
     struct error *error = case_replacements(input, &f.replacements);

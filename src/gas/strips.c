@@ -188,6 +188,19 @@ static bool is_plane_alike(const struct gas *gas, int32_t a, int axis, int32_t b
     return alike;
 }
 
+/* Whether the copy B of another rank's block holds what block A does, which is still. */
+static bool is_copy_alike(const struct gas *gas, int32_t a, int32_t b)
+{
+    const struct cell_block *copy = &gas->cells->block[b];
+    const int32_t first = gas->cells->block[a].first,
+                  end = copy->first + copy->count[0] * copy->count[1] * copy->count[2];
+    bool alike = true;
+    for (int n = 0; n < gas->layout.written && alike; n++)
+        for (int32_t i = copy->first; i < end; i++)
+            alike &= gas->u[n][i] == gas->u[n][first];
+    return alike;
+}
+
 /* Whether block A and what is beyond an end of block B along AXIS hold the same gas at rest. */
 static bool is_alike_beyond(const struct gas *gas, int32_t a, int axis, int32_t b, int side)
 {
@@ -195,7 +208,8 @@ static bool is_alike_beyond(const struct gas *gas, int32_t a, int axis, int32_t 
     const struct cell_halo_axis *halo = &gas->halo.axis[axis];
     bool alike = true;
     for (int k = 0; seam && k < seam->besides && alike; k++)
-        alike = is_alike(gas, a, seam->beside[k]);
+        alike = seam->beside[k] < gas->cells->blocks ? is_alike(gas, a, seam->beside[k])
+                                                     : is_copy_alike(gas, a, seam->beside[k]);
     for (int depth = 0; !seam && depth < gas->halo.depth && alike; depth++) {
         const struct cell_source *source = &halo->beyond[b][side][depth];
         alike = source->block >= 0 ? is_alike(gas, a, source->block)
@@ -239,6 +253,17 @@ static bool is_plane_calm(const struct gas *gas, int axis, int32_t b, int32_t pl
     return calm;
 }
 
+/* Whether the copy B of another rank's block has no shock. */
+static bool is_copy_calm(const struct gas *gas, int32_t b)
+{
+    const struct cell_block *copy = &gas->cells->block[b];
+    const int32_t end = copy->first + copy->count[0] * copy->count[1] * copy->count[2];
+    bool calm = true;
+    for (int32_t i = copy->first; i < end; i++)
+        calm &= gas->u[GAS_SHOCK][i] == 0.0;
+    return calm;
+}
+
 /* Whether no shock is beyond an end of block B along AXIS. */
 static bool is_calm_beyond(const struct gas *gas, int axis, int32_t b, int side)
 {
@@ -246,7 +271,8 @@ static bool is_calm_beyond(const struct gas *gas, int axis, int32_t b, int side)
     const struct cell_halo_axis *halo = &gas->halo.axis[axis];
     bool calm = true;
     for (int k = 0; seam && k < seam->besides; k++)
-        calm &= !gas->block[seam->beside[k]].shocked;
+        calm &= seam->beside[k] < gas->cells->blocks ? !gas->block[seam->beside[k]].shocked
+                                                     : is_copy_calm(gas, seam->beside[k]);
     for (int depth = 0; !seam && depth < gas->halo.depth && calm; depth++) {
         const struct cell_source *source = &halo->beyond[b][side][depth];
         calm = source->block >= 0 ? !gas->block[source->block].shocked
