@@ -176,9 +176,10 @@ const struct parameter case_table[] = {
     PARAMETER(NUMBER, struct simulation_case, resolution, REQUIRED, "particle spacing at the start",
               .unit = "m", .below = INFINITY),
     PARAMETER(INTEGER, struct simulation_case, levels, "1",
-              "number of levels of cells (gas): those of the finest are as wide as `resolution`, "
-              "those of each next one twice as wide; where `fine` asks for nothing else, cells are "
-              "as coarse as can be",
+              "number of levels of cells (gas, also in cfdmp and afdmp): those of the finest are "
+              "as wide as `resolution`, beside material points as their cells, those of each next "
+              "one twice as wide; where `fine` asks for nothing else, cells are as coarse as can "
+              "be",
               .above = 1, .below = 8, .closed = true),
     PARAMETER(MAP, struct simulation_case, fine, OPTIONAL,
               "with several `levels`, where cells are of the finest, by name", .table = fine_table,

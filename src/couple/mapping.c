@@ -267,6 +267,7 @@ static struct error *make_particles(struct afdmp *afdmp, const struct gas_view *
 
 struct error *afdmp_map_to_points(struct afdmp *afdmp, struct simulation *simulation)
 {
+    TRY(gas_refine(afdmp->gas, &afdmp->gas_part.simulation));
     const struct gas_view view = gas_view(afdmp->gas);
     const struct gas_cut *region = &afdmp->region;
     for (int32_t b = 0; b < view.cells->blocks; b++) {

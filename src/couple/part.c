@@ -81,6 +81,12 @@ void part_block(const struct part_maker *maker, struct coupled_part *part, const
         part->place.blocked = box_of(maker, low, high);
 }
 
+void part_pin(const struct part_maker *maker, struct place *place, int number, const int64_t low[3],
+              const int64_t high[3])
+{
+    place->pinned[number] = box_of(maker, low, high);
+}
+
 void part_close_faces(const struct part_maker *maker, struct coupled_part *part,
                       const struct gas_cut *cut, const struct place *outer)
 {
@@ -249,10 +255,10 @@ struct error *region_check(const struct couple_region *region, const char *key,
     return NULL;
 }
 
-/* Whether a block meets the box from LOW to HIGH. */
+/* Whether a block of the finest level meets the box from LOW to HIGH. */
 static bool meets(const struct cell_block *block, const int64_t low[3], const int64_t high[3])
 {
-    bool meets = true;
+    bool meets = block->level == 0;
     for (int axis = 0; axis < 3; axis++)
         meets &= block->corner[axis] < high[axis] &&
                  block->corner[axis] + block->count[axis] > low[axis];

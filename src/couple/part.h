@@ -44,6 +44,11 @@ void part_cut_bodies(const struct part_maker *maker, struct coupled_part *part,
 void part_block(const struct part_maker *maker, struct coupled_part *part, const int64_t low[3],
                 const int64_t high[3]);
 
+/* Of cells of several levels those from LOW to HIGH and around are of the finest, as box NUMBER of
+ * PLACE. */
+void part_pin(const struct part_maker *maker, struct place *place, int number, const int64_t low[3],
+              const int64_t high[3]);
+
 /* The faces of the box of CUT that are not open are closed where those of OUTER are, else
  * outflows. */
 void part_close_faces(const struct part_maker *maker, struct coupled_part *part,
@@ -103,7 +108,7 @@ bool part_pick(struct picked *picked, int32_t count, int threads,
  * of all ranks, by sums of their BITS. */
 void part_unite(const struct ranks *ranks, int64_t *bits, double *values, int64_t count);
 
-/* Cells from LOW to HIGH are not those that count: they have no mass. */
+/* Cells from LOW to HIGH, of the finest level, are not those that count: they have no mass. */
 void part_hide_cells(struct cell_blocks *cells, const int64_t low[3], const int64_t high[3]);
 
 /* The key `region`; and what is wrong with it at KEY of the solver, for cells whose domain, edge

@@ -30,6 +30,7 @@ static struct error *make_gas_part(struct cfdmp *cfdmp, const struct simulation 
     TRY(cfdmp_find_region(cfdmp, input, &domain));
     TRY(cfdmp_check_region(cfdmp, input));
     block_inside(cfdmp);
+    part_pin(&cfdmp->maker, &part->place, 0, cfdmp->cut.low, cfdmp->cut.high);
     TRY(part_create(&cfdmp->maker, part, simulation, &gas_class, &cfdmp->parameters.gas));
     cfdmp->gas = part->solver;
     return NULL;

@@ -274,6 +274,13 @@ void cfdmp_count(const void *parameters, const struct simulation_case *input,
         counted->cells *= (double)(domain.high[axis] - domain.low[axis]);
         blocked *= maximum((double)(inside[1] - inside[0]), 0.0);
     }
+    if (input->levels > 1) {
+        const struct part_maker maker = {NULL, cfdmp.edge, cfdmp.dimension};
+        struct place place = place_whole(input);
+        place.resolution = cfdmp.edge;
+        part_pin(&maker, &place, 0, cfdmp.cut.low, cfdmp.cut.high);
+        counted->cells *= gas_part_of_cells(&place);
+    }
     counted->cells -= blocked;
     counted->box = (struct bounds){vector_at(low), vector_at(high)};
 }

@@ -191,8 +191,12 @@ static struct error *make_gas_part(struct afdmp *afdmp, const struct simulation 
     part->place.resolution = afdmp->edge;
     for (int b = 0; b < input->bodies.count; b++)
         part->elsewhere[b] = is_solid(input, b);
-    if (count_bodies(input, is_solid) > 0)
+    if (count_bodies(input, is_solid) > 0) {
         part_block(&afdmp->maker, part, afdmp->region.low, afdmp->region.high);
+        part_pin(&afdmp->maker, &part->place, 0, afdmp->region.low, afdmp->region.high);
+    }
+    if (count_bodies(input, is_charge) > 0 && !input->start.input)
+        part_pin(&afdmp->maker, &part->place, 1, afdmp->nest_cut.low, afdmp->nest_cut.high);
     afdmp->parameters.gas.burnt = true;
     TRY(part_create(&afdmp->maker, part, simulation, &gas_class, &afdmp->parameters.gas));
     afdmp->gas = part->solver;

@@ -72,15 +72,16 @@ static void pin(struct cell_blocks *cells, struct bounds box, int around)
 
 /* Where levels meet no cell is blocked or has yet to burn, up to two of the next wider ones from
  * there. */
-struct error *gas_take_levels(const struct simulation_case *input, int levels,
-                              struct cell_blocks *cells, int *lasting)
+struct error *gas_take_levels(const struct place *place, struct cell_blocks *cells, int *lasting)
 {
-    cells->levels = levels;
+    const struct simulation_case *input = place->input;
+    cells->levels = (int)input->levels;
     *lasting = 0;
     if (cells->levels < 2)
         return NULL;
     enum { AROUND_BODIES = 4 };
-    const int most = input->fine.count + input->boundaries.count + input->bodies.count + 1;
+    const int most =
+        input->fine.count + input->boundaries.count + input->bodies.count + PLACE_PINNED + 1;
     cells->region = memory_allocate((size_t)most * sizeof *cells->region);
     if (!cells->region)
         return out_of_memory();
@@ -89,6 +90,9 @@ struct error *gas_take_levels(const struct simulation_case *input, int levels,
     for (int b = 0; b < input->boundaries.count; b++)
         if (case_boundary(input, b)->kind == BOUNDARY_RIGID_BODY)
             pin(cells, shape_bounds(&case_boundary(input, b)->part), AROUND_BODIES);
+    for (int k = 0; k < PLACE_PINNED; k++)
+        if (place->pinned[k].low.x < place->pinned[k].high.x)
+            pin(cells, place->pinned[k], AROUND_BODIES);
     *lasting = cells->regions;
     for (int b = 0; b < input->bodies.count; b++)
         if (material_is_lit(case_material(input, case_body(input, b)->material_index)->material))
@@ -96,12 +100,13 @@ struct error *gas_take_levels(const struct simulation_case *input, int levels,
     return NULL;
 }
 
-double gas_part_of_cells(const struct simulation_case *input)
+double gas_part_of_cells(const struct place *place)
 {
     static const double reach = 1e6; /* cells */
+    const struct simulation_case *input = place->input;
     const double width = ldexp(1.0, (int)input->levels);
     struct cell_blocks cells = {
-        .dimension = (int)input->dimension, .edge = input->resolution, .high = {1, 1, 1}};
+        .dimension = (int)input->dimension, .edge = place->resolution, .high = {1, 1, 1}};
     double all = 1.0, found = 0.0;
     for (int axis = 0; axis < cells.dimension; axis++) {
         const double low = nearbyint(domain_face(input, axis, 0).at / cells.edge),
@@ -116,7 +121,7 @@ double gas_part_of_cells(const struct simulation_case *input)
     struct cell_block *list = NULL;
     int64_t count = 0;
     int lasting;
-    struct error *error = gas_take_levels(input, (int)input->levels, &cells, &lasting);
+    struct error *error = gas_take_levels(place, &cells, &lasting);
     if (!error)
         error = levels_list(&cells, NULL, 0, &list, &count);
     for (int64_t b = 0; b < count && !error; b++)

@@ -156,10 +156,7 @@ static struct error *gas_create(void *solver, struct simulation *simulation, con
         return out_of_memory();
     cells->dimension = simulation->problem->dimension;
     cells->edge = simulation->problem->place.resolution;
-    TRY(gas_take_levels(
-        simulation->problem->input,
-        simulation->problem->place.is_part ? 1 : (int)simulation->problem->input->levels, cells,
-        &gas->lasting));
+    TRY(gas_take_levels(&simulation->problem->place, cells, &gas->lasting));
     cells->ranks = simulation->ranks;
     cells->partition = &simulation->partition;
     cells->threads = simulation->threads;
@@ -448,8 +445,10 @@ static void gas_count(const void *parameters, const struct simulation_case *inpu
 {
     (void)parameters;
     counted->box = domain_bounds(input);
-    if (input->levels > 1)
-        counted->part = gas_part_of_cells(input);
+    if (input->levels > 1) {
+        const struct place place = place_whole(input);
+        counted->part = gas_part_of_cells(&place);
+    }
 }
 
 static double gas_step(const void *parameters, const struct simulation_case *input,

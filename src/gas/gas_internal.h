@@ -129,14 +129,9 @@ void gas_refuse(const struct simulation *simulation, const struct gas_parameters
  * of its bodies. ERROR_INPUT: a face does not lie on a plane of the grid. */
 struct error *gas_find_domain(const struct simulation *simulation, struct cell_blocks *cells);
 
-/* So many LEVELS, and the regions of the finest that a case asks for, into CELLS. The first
+/* The levels of PLACE, and the regions of the finest that it asks for, into CELLS. The first
  * *LASTING of them stay when all explosives have burnt. */
-struct error *gas_take_levels(const struct simulation_case *input, int levels,
-                              struct cell_blocks *cells, int *lasting);
-
-/* The cells at the start, before waves ask for finer ones, over those of one level; 1 where a case
- * is wrong. */
-double gas_part_of_cells(const struct simulation_case *input);
+struct error *gas_take_levels(const struct place *place, struct cell_blocks *cells, int *lasting);
 
 /* Obstacles that leave no cell of the domain of CELLS open, and boundaries whose part holds no
  * place of their face. */

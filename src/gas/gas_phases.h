@@ -27,6 +27,9 @@ void gas_watch(struct gas *gas, const struct gas_cut *cut);
  * BLOCKS, a flag each, may have changed. ERROR_STATE: one is impossible. */
 struct error *gas_refresh(struct gas *gas, const struct simulation *simulation, const bool *blocks);
 
+/* Collective: all cells become those of the finest level. */
+struct error *gas_refine(struct gas *gas, struct simulation *simulation);
+
 /* Where markers divide two materials: none is left; there is one more at AT, of the second material
  * or of the first; cells get their states by all of them. Nothing happens where they do not. */
 void gas_forget_markers(struct gas *gas);
@@ -41,6 +44,10 @@ double gas_relax(const struct eos eos[2], const double mass[2], const double ene
 
 /* Finds rigid bodies that cells of EDGE do not see. */
 void gas_judge_bodies(struct findings *findings, double edge);
+
+/* The cells of PLACE at the start, before waves ask for finer ones, over those of one level; 1
+ * where a case is wrong. */
+double gas_part_of_cells(const struct place *place);
 
 /* Whether the solver computes MATERIAL. */
 bool gas_computes(const struct material *material);

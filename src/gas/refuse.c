@@ -247,7 +247,7 @@ void gas_refuse(const struct simulation *simulation, const struct gas_parameters
     for (int b = 0; b < input->bodies.count; b++)
         refuse_body(place, b, findings);
     refuse_materials(simulation, parameters, findings);
-    if (input->levels > 1 && !place->is_part)
+    if (input->levels > 1)
         refuse_levels(simulation, parameters, findings);
 }
 

@@ -341,6 +341,40 @@ static struct error *move(struct gas *gas, struct cell_block *list, int64_t coun
     return error;
 }
 
+/* The blocks with those of LEVEL and of coarser levels divided once, *COUNT of them. */
+static struct error *divide_from(const struct cell_blocks *cells, int level,
+                                 struct cell_block **list, int64_t *count)
+{
+    int64_t wants = 0;
+    struct cell_want *want = memory_allocate(((size_t)cells->blocks + 1) * sizeof *want);
+    if (!want)
+        return out_of_memory_for("cells");
+    for (int32_t b = 0; b < cells->blocks; b++) {
+        const struct cell_block *block = &cells->block[b];
+        const int up = block->level >= level && block->level > 0 ? 1 : 0;
+        want[wants].level = block->level - up;
+        for (int axis = 0; axis < 3; axis++)
+            want[wants].at[axis] = block->corner[axis] * (axis < cells->dimension ? 1 << up : 1);
+        wants++;
+    }
+    struct error *error = levels_list(cells, want, wants, list, count);
+    free(want);
+    return error;
+}
+
+struct error *gas_refine(struct gas *gas, struct simulation *simulation)
+{
+    for (int level = gas->cells->levels - 1; level > 0; level--) {
+        struct cell_block *list = NULL;
+        int64_t count = 0;
+        TRY(divide_from(gas->cells, level, &list, &count));
+        TRY(move(gas, list, count, simulation->threads));
+        TRY(gas_plan(gas, simulation));
+        TRY(gas_derive(gas, simulation, NULL));
+    }
+    return NULL;
+}
+
 struct error *gas_regrid(struct gas *gas, struct simulation *simulation)
 {
     const int64_t every = gas->parameters.regrid;

@@ -165,7 +165,7 @@ static bool is_cut(const struct gas *gas, const struct gas_strip *strip, int axi
     const struct gas_cut *cut = gas->cut;
     const struct cell_block *first = &gas->cells->block[strip->block[0]],
                             *last = &gas->cells->block[strip->block[strip->count - 1]];
-    bool inside = cut != NULL;
+    bool inside = cut != NULL && first->level == 0;
     for (int k = 0; k < 3 && inside; k++)
         inside =
             cut->low[k] <= last->corner[k] + last->count[k] && cut->high[k] >= first->corner[k];

@@ -48,9 +48,10 @@ struct gas_layout {
     int fields;             /* all of them */
 };
 
-/* A box of cells, whose faces on SIDEs that are open a coupling watches: what passes through each
- * per area in a step, fluxes times the duration of sweeps, and of the second material's mass. The
- * faces across an axis lie in the order of cells, the lower of the two other axes first. */
+/* A box of cells of the finest level, whose faces on SIDEs that are open a coupling watches: what
+ * passes through each per area in a step, fluxes times the duration of sweeps, and of the second
+ * material's mass. The faces across an axis lie in the order of cells, the lower of the two other
+ * axes first. */
 enum { GAS_PASSED = GAS_NUMBERS + 1 };
 struct gas_cut {
     int64_t low[3], high[3]; /* its first cell along each axis, the one after its last */

@@ -52,8 +52,9 @@ BOLIDE_INLINE void find_cut(const struct gather *g, int *begin, int *end)
     const struct cell_block *block = &g->sweep->cells->block[g->strip->block[0]];
     const struct across across = across_of(g->sweep->axis);
     const int64_t at[2] = {block->corner[across.first] + g->i, block->corner[across.second] + g->j};
-    const bool meets = cut && at[0] >= cut->low[across.first] && at[0] < cut->high[across.first] &&
-                       at[1] >= cut->low[across.second] && at[1] < cut->high[across.second];
+    const bool meets = cut && block->level == 0 && at[0] >= cut->low[across.first] &&
+                       at[0] < cut->high[across.first] && at[1] >= cut->low[across.second] &&
+                       at[1] < cut->high[across.second];
     *begin = meets ? (int)(cut->low[g->sweep->axis] - block->corner[g->sweep->axis]) : 0;
     *end = meets ? (int)(cut->high[g->sweep->axis] - block->corner[g->sweep->axis]) : 0;
 }
@@ -69,7 +70,7 @@ BOLIDE_INLINE void note_cut(const struct gather *g, const struct gas_row *row,
     const struct across across = across_of(sweep->axis);
     const int64_t first = block->corner[sweep->axis] + begin;
     const int64_t at[2] = {block->corner[across.first] + g->i, block->corner[across.second] + g->j};
-    if (at[0] < cut->low[across.first] || at[0] >= cut->high[across.first] ||
+    if (block->level > 0 || at[0] < cut->low[across.first] || at[0] >= cut->high[across.first] ||
         at[1] < cut->low[across.second] || at[1] >= cut->high[across.second])
         return;
     const int64_t number =

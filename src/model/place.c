@@ -37,6 +37,8 @@ struct place place_whole(const struct simulation_case *input)
                           .box = {vector_at(nothing), vec3_scale(-1.0, vector_at(nothing))},
                           .resolution = input->resolution};
     place.blocked = (struct bounds){place.box.high, place.box.low};
+    for (int k = 0; k < PLACE_PINNED; k++)
+        place.pinned[k] = place.blocked;
     find_faces(input, place.face);
     return place;
 }

@@ -18,6 +18,8 @@ struct face {
 BOLIDE_INLINE bool face_closes(const struct face *face) { return boundary_kind_closes(face->kind); }
 BOLIDE_INLINE bool face_lets_out(const struct face *face) { return face->kind == BOUNDARY_OUTFLOW; }
 
+enum { PLACE_PINNED = 2 };
+
 struct place {
     const struct simulation_case *input;
     struct face face[3][2]; /* low and high across each axis */
@@ -26,6 +28,8 @@ struct place {
     struct bounds box;     /* bodies are cut to it */
     struct bounds blocked; /* cells with centres in it are not computed; low above high: none */
     double resolution;     /* of cells */
+    /* Of cells of several levels those in these are of the finest; as BLOCKED. */
+    struct bounds pinned[PLACE_PINNED];
 };
 
 /* The whole domain of INPUT. */

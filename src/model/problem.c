@@ -281,7 +281,7 @@ void problem_refuse_gas_keys(const struct problem *problem, struct findings *fin
                     "the solvers gas, mpm and sph alone begin from another case");
     if (input->levels > 1 && !problem->place.is_part)
         finding_add(findings, FINDING_WRONG, "levels", NULL,
-                    "the solver gas alone has cells of several levels");
+                    "the solvers gas, cfdmp and afdmp alone have cells of several levels");
     for (int m = 0; m < problem->materials; m++)
         if (problem->material[m].afterburn.energy > 0.0)
             finding_add(findings, FINDING_WRONG, "materials", problem->input->materials.names[m],

@@ -66,4 +66,13 @@ compare everything-alternating 000001 000005 000010
 settings=(--set solver.afdmp.gas.method=lax-wendroff)
 BOLIDE_MPIRUN= compare everything-alternating 000001 000005
 
+# With levels of cells, on one rank.
+settings=(--set levels=3 --set "run.until=120 us" --set "domain.high=[0.96 m, 0.8 m]"
+    --set "bodies.air.box.to=[0.96 m, 0.8 m]")
+BOLIDE_MPIRUN= compare everything-coupled 000002
+low='[-0.48 m, 0 m]' high='[0.32 m, 0.48 m]'
+settings=(--set levels=3 --set "run.until=45 us" --set "domain.low=$low" --set "domain.high=$high"
+    --set "bodies.air.box.from=$low" --set "bodies.air.box.to=$high")
+BOLIDE_MPIRUN= compare everything-alternating 000005 000012
+
 exit $status
