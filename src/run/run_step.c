@@ -144,6 +144,8 @@ struct error *run_take_step(struct run *run)
     run->sound = false;
     simulation_start_phase(simulation);
     TRY(run->method->prepare(run->solver, simulation, &run->limit));
+    if (run->input->levels > 1) /* cells come and go with waves */
+        run->particles = simulation_members(simulation);
     const double event = minimum(run->limit.event, run->input->run.until);
     double dt = step_towards(run->limit.dt, simulation->time, event);
     double after = dt == event - simulation->time ? event : simulation->time + dt;
