@@ -19,10 +19,10 @@ names=$(grep -v '^#' "$BOLIDE_SOURCE_DIR/tests/data/kinds.txt")
 cases=
 for name in $names; do cases="$cases $BOLIDE_SOURCE_DIR/examples/$name/case.yaml"; done
 rm -rf one two four
-few=(verify $cases --short --set run.max_steps=41 --set run.energy_drift=0 --set "output.pictures=[density]")
+few=(verify $cases --short --set run.max_steps=25 --set run.energy_drift=0 --set "output.pictures={density: {view: section}}")
 "$BOLIDE" "${few[@]}" --output one >one.log 2>&1
 on 2 "${few[@]}" --output two >two.log 2>&1
-on 4 "${few[@]}" --set run.rebalance=20 --output four >four.log 2>&1
+on 4 "${few[@]}" --set run.rebalance=10 --output four >four.log 2>&1
 for name in $names; do
     case $name in
     mpm/*) on_two=same_but_for_order ;; # ranks sort their particles at times of their own
