@@ -140,6 +140,15 @@ static void put_speed(FILE *file, const struct run *run)
         put_text(file, "run", "", "ended", now);
 }
 
+/* How many there are, and how many members the one with the fewest and the one with the most has.
+ * Collective. */
+static void put_ranks(FILE *file, const struct run *run, const struct population *population)
+{
+    put_number(file, "run", "", "ranks", run->ranks.size, "");
+    put_number(file, "run", "", "least_on_rank", ranks_minimum(&run->ranks, population->count), "");
+    put_number(file, "run", "", "most_on_rank", ranks_maximum(&run->ranks, population->count), "");
+}
+
 static void put_run(FILE *file, const struct run *run, const char *status,
                     const struct error *error)
 {
@@ -158,7 +167,7 @@ static void put_run(FILE *file, const struct run *run, const char *status,
     put_number(file, "run", "", population_members(&population), (double)simulation_members(s), "");
     put_number(file, "run", "", "threads", run->threads.most, "");
     if (run->ranks.size > 1)
-        put_number(file, "run", "", "ranks", run->ranks.size, "");
+        put_ranks(file, run, &population);
     put_number(file, "run", "", "until", input->run.until, "s");
     put_number(file, "run", "", "time", s->time, "s");
     put_number(file, "run", "", "steps", (double)s->step, "");
