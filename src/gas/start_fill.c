@@ -321,8 +321,9 @@ static struct error *transfer(struct filling *f, struct blast *blast)
     find_factors(f, blast);
     for (int32_t i = 0; i < cells->count && !error; i++)
         error = fill_cell(f, blast, i);
+    TRY(ranks_agree(f->simulation->ranks, error));
     fill_maps(f, blast);
-    return error;
+    return NULL;
 }
 
 struct error *gas_fill_blast(struct gas *gas, const struct simulation *simulation,
