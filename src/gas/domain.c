@@ -79,6 +79,10 @@ struct error *gas_take_levels(const struct place *place, struct cell_blocks *cel
     *lasting = 0;
     if (cells->levels < 2)
         return NULL;
+    for (int b = 0; b < input->boundaries.count; b++)
+        if (case_boundary(input, b)->kind == BOUNDARY_PERIODIC &&
+            case_boundary(input, b)->axis >= 0)
+            cells->periodic[case_boundary(input, b)->axis] = true;
     enum { AROUND_BODIES = 4 };
     const int most =
         input->fine.count + input->boundaries.count + input->bodies.count + PLACE_PINNED + 1;

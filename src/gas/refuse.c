@@ -218,13 +218,6 @@ static void refuse_levels(const struct simulation *simulation,
         finding_add(findings, FINDING_WRONG, "solver", "gas.center",
                     "expected %d component%s, one per dimension", (int)input->dimension,
                     input->dimension == 1 ? "" : "s");
-    for (int b = 0; b < input->boundaries.count; b++) {
-        const int kind = case_boundary(input, b)->kind;
-        if (kind == BOUNDARY_PERIODIC)
-            finding_add(findings, FINDING_WRONG, "boundaries", input->boundaries.names[b],
-                        "with several levels of cells no boundary is of kind %s",
-                        boundary_kind_name(kind));
-    }
 }
 
 void gas_refuse(const struct simulation *simulation, const struct gas_parameters *parameters,

@@ -133,6 +133,7 @@ static int64_t add_wants(const struct gas *gas, int32_t b, const struct demand *
             at[axis] = block->corner[axis] + (to[axis] < 0   ? -1
                                               : to[axis] > 0 ? block->count[axis]
                                                              : 0);
+        cell_into_domain(cells, block->level, at);
         const struct cell_block *there = own ? block : cell_block_known(cells, block->level, at);
         if (!there)
             continue;

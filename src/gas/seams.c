@@ -58,12 +58,15 @@ static const struct cell_block *find(const struct cell_blocks *cells, int level,
     return cell_block_cover(cells, level, at);
 }
 
-/* The fields that sweeps write of cell AT of LEVEL: its own, or the means of its parts, which have
- * the shocks of all of them. False where it is outside the domain or a part of a wider cell. */
-static bool take(const struct gas *gas, int level, const int64_t at[3],
+/* The fields that sweeps write of the cell at WHERE of LEVEL: its own, or the means of its parts,
+ * which have the shocks of all of them. False where it is outside the domain or a part of a wider
+ * cell. */
+static bool take(const struct gas *gas, int level, const int64_t where[3],
                  const struct cell_block *const likely[2], double *number)
 {
     const struct cell_blocks *cells = gas->cells;
+    int64_t at[3] = {where[0], where[1], where[2]};
+    cell_into_domain(cells, level, at);
     const struct cell_block *block = find(cells, level, at, likely);
     if (!block || block->level > level)
         return false;
@@ -193,6 +196,7 @@ static void find_beside(const struct cell_blocks *cells, const struct cell_block
         at[axis] += side ? block->count[axis] : -1;
         at[across.first] += k % across.firsts ? block->count[across.first] - 1 : 0;
         at[across.second] += k / across.firsts ? block->count[across.second] - 1 : 0;
+        cell_into_domain(cells, block->level, at);
         const struct cell_block *beside = cell_block_cover(cells, block->level, at);
         if (!beside || beside->level == block->level)
             return;
@@ -340,6 +344,7 @@ static bool mean_flux(const struct gas *gas, int axis, const struct gas_seam_end
     at[axis] += end->side ? own->count[axis] : -1;
     at[across.first] += i;
     at[across.second] += j;
+    cell_into_domain(cells, own->level, at);
     change_level(cells->dimension, at, -1, part);
     part[axis] += end->side ? 0 : 1;
     const struct cell_block *beside = NULL;

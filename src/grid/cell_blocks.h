@@ -45,9 +45,10 @@ struct cell_blocks {
     int dimension;
     double edge; /* of a cell of level 0, m */
     int64_t low[3],
-        high[3]; /* of the domain along each axis: its first cell, the one after its last */
-    int levels;  /* of cells; 0, 1: there is one */
-    int regions; /* where cells are of level 0; elsewhere they are as coarse as can be */
+        high[3];      /* of the domain along each axis: its first cell, the one after its last */
+    int levels;       /* of cells; 0, 1: there is one */
+    bool periodic[3]; /* along which axes of several levels its cells are repeated */
+    int regions;      /* where cells are of level 0; elsewhere they are as coarse as can be */
     struct cell_region *region; /* owned */
     const struct ranks *ranks;
     struct partition *partition;
@@ -105,6 +106,18 @@ BOLIDE_INLINE int64_t cell_domain_end(const struct cell_blocks *cells, int level
 {
     return (side ? cells->high : cells->low)[axis] /
            ((int64_t)1 << (axis < cells->dimension ? level : 0));
+}
+
+/* Takes AT, a cell of LEVEL, into the domain along periodic axes. */
+BOLIDE_INLINE void cell_into_domain(const struct cell_blocks *cells, int level, int64_t at[3])
+{
+    for (int axis = 0; axis < cells->dimension; axis++) {
+        if (!cells->periodic[axis])
+            continue;
+        const int64_t low = cell_domain_end(cells, level, axis, 0),
+                      high = cell_domain_end(cells, level, axis, 1);
+        at[axis] += at[axis] < low ? high - low : at[axis] >= high ? low - high : 0;
+    }
 }
 
 /* A store without blocks, with the core's fields and COUNT more. The caller has set dimension,

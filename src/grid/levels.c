@@ -31,8 +31,10 @@ static int32_t block_of(const struct cover *cover, int level, const int64_t at[3
     return number >= 0 && cover->block[number].level >= level ? number : -1;
 }
 
-static int32_t find(const struct cover *cover, int level, const int64_t at[3])
+static int32_t find(const struct cover *cover, int level, const int64_t place[3])
 {
+    int64_t at[3] = {place[0], place[1], place[2]};
+    cell_into_domain(cover->cells, level, at);
     int32_t found = is_inside(cover->cells, level, at) ? block_of(cover, level, at) : -2;
     for (int l = level + 1; l < cover->cells->levels && found == -1; l++) {
         int64_t cell[3] = {0, 0, 0};
@@ -120,8 +122,14 @@ static bool is_pinned(const struct cell_blocks *cells, const struct block_table 
         bool meets = true;
         for (int axis = 0; axis < cells->dimension; axis++) {
             const int64_t low = block->corner[axis] * (1 << block->level),
-                          high = low + (int64_t)block->count[axis] * (1 << block->level);
-            meets &= low < region->high[axis] && high > region->low[axis];
+                          high = low + (int64_t)block->count[axis] * (1 << block->level),
+                          period = cells->high[axis] - cells->low[axis];
+            bool along = false;
+            for (int k = -1; k <= 1; k++)
+                along |= (k == 0 || cells->periodic[axis]) &&
+                         low < region->high[axis] + k * period &&
+                         high > region->low[axis] + k * period;
+            meets &= along;
         }
         if (meets)
             return true;

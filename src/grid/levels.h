@@ -24,8 +24,9 @@ struct error *levels_list(const struct cell_blocks *cells, const struct cell_wan
  * come without cells. */
 struct error *levels_visit(struct cell_blocks *cells, struct visitor *visitor);
 
-/* The block, of any level, that covers cell AT of LEVEL, or the first part of it; NULL outside the
- * domain, and where neither the block nor a copy of it is on this rank. */
+/* The block, of any level, that covers cell AT of LEVEL, or the first part of it, taken into the
+ * domain along periodic axes; NULL outside it, and where neither the block nor a copy of it is on
+ * this rank. */
 const struct cell_block *cell_block_cover(const struct cell_blocks *cells, int level,
                                           const int64_t at[3]);
 

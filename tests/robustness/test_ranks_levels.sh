@@ -62,7 +62,7 @@ boundaries:
 run: {until: 1 s, max_steps: 24, rebalance: 7}
 END
 
-# Levels at rest along a line, which more ranks than blocks share.
+# Levels at rest along a line that repeats itself, which more ranks than blocks share.
 cat >line.yaml <<'END'
 format: 1
 dimension: 1
@@ -74,6 +74,7 @@ materials: {air: {eos: {ideal-gas: {density: 1.2 kg/m^3, gamma: 1.4}}}}
 bodies:
   air: {material: air, pressure: 0.1 MPa, density: 1.2 kg/m^3, box: {from: [0 m], to: [0.768 m]}}
   hot: {material: air, pressure: 1 MPa, density: 1.2 kg/m^3, box: {from: [0 m], to: [0.2 m]}, replaces: air}
+boundaries: {ends: {kind: periodic, axis: x}}
 run: {until: 1 s, max_steps: 100}
 END
 
