@@ -158,6 +158,8 @@ struct error *run_take_step(struct run *run)
     maps_update(simulation, dt);
     run->step = dt;
     run->sound = true;
+    if (run->input->levels > 1) /* cells divide and merge in a step */
+        run->particles = simulation_members(simulation);
     run->result->updates += run->particles;
     return NULL;
 }

@@ -280,6 +280,25 @@ static void a_run_ends_at_its_time_to_the_bit(void **state)
     run_result_free(&result);
 }
 
+/* A wave that steepens divides cells, which are of the widest level at the start. */
+static void updates_count_the_cells_of_each_step(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "format: 1\ndimension: 1\nresolution: 1 mm\nlevels: 3\nsolver: gas\n"
+        "materials: {air: {eos: {ideal-gas: {density: 1.2 kg/m^3, gamma: 1.4}}}}\n"
+        "bodies: {air: {material: air, box: {from: [0 m], to: [2.048 m]},\n"
+        "               energy: '0.2 MJ/kg + 2 MJ/kg*exp(-((x - 1.024 m)/0.2 m)^2)'}}\n"
+        "run: {until: 1 ms}\n";
+    const int64_t cells_at_start = 2048 / 4;
+    struct run_options options = {.threads = 1, .max_steps = 200};
+    struct run_result result = run_text(text, NULL, &options);
+    assert_int_equal(result.steps, 200);
+    assert_true(result.particles > cells_at_start);
+    assert_true(result.updates > 200 * cells_at_start && result.updates < 200 * result.particles);
+    run_result_free(&result);
+}
+
 static void a_step_ends_where_a_body_stops(void **state)
 {
     (void)state;
@@ -759,6 +778,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_remains_is_spread_over_the_last_two_steps),
         cmocka_unit_test(a_run_ends_at_its_time_to_the_bit),
+        cmocka_unit_test(updates_count_the_cells_of_each_step),
         cmocka_unit_test(a_step_ends_where_a_body_stops),
         cmocka_unit_test(a_check_measured_early_survives_a_resume),
         cmocka_unit_test(a_failed_check_is_no_error),
