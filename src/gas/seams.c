@@ -127,8 +127,9 @@ static void put(const struct gas *gas, int axis, const struct cell_seam *seam, i
             n < gas->layout.written ? number[n] : 1.0;
 }
 
-/* Puts the parts, beyond a fine block, of the coarse cell one of which is AT, in row I, J. */
-static void put_parts(const struct gas *gas, int axis, const struct cell_seam *seam,
+/* Puts the parts, beyond a fine block, of the coarse cell one of which is AT, in row I, J of the
+ * SEAMS, so many, that hold them. */
+static void put_parts(const struct gas *gas, int axis, const struct cell_seam *seam, int seams,
                       const struct cell_block *const likely[2], const int64_t at[3], int i, int j)
 {
     const int dimension = gas->cells->dimension, level = likely[0]->level + 1;
@@ -140,20 +141,24 @@ static void put_parts(const struct gas *gas, int axis, const struct cell_seam *s
     const struct gas_inner middle = gas_inner_of(gas, number);
     for (int k = 0; k < dimension; k++)
         find_slope(gas, level, whole, k, likely, &middle, slope[k]);
-    for (int second = 0; second < across.seconds; second++)
-        for (int first = 0; first < across.firsts; first++) {
-            int64_t part[3] = {at[0], at[1], at[2]};
-            int side[3];
-            part[across.first] += first;
-            part[across.second] += second;
-            for (int k = 0; k < 3; k++)
-                side[k] = (int)(part[k] & 1);
-            gas_inner_part(gas, &middle, slope, dimension, side, number);
-            put(gas, axis, seam, i + first + (j + second) * likely[0]->count[across.first], number);
-        }
+    for (int s = 0; s < seams; s++)
+        for (int second = 0; second < across.seconds; second++)
+            for (int first = 0; first < across.firsts; first++) {
+                int64_t part[3] = {at[0], at[1], at[2]};
+                int side[3];
+                part[axis] = seam[s].at;
+                part[across.first] += first;
+                part[across.second] += second;
+                for (int k = 0; k < 3; k++)
+                    side[k] = (int)(part[k] & 1);
+                gas_inner_part(gas, &middle, slope, dimension, side, number);
+                put(gas, axis, &seam[s], i + first + (j + second) * likely[0]->count[across.first],
+                    number);
+            }
 }
 
-static void fill_seam(const struct gas *gas, int axis, const struct cell_seam *seam)
+/* Fills so many SEAMS of a block, whose cells are parts of the same ones where these are wider. */
+static void fill_seams(const struct gas *gas, int axis, const struct cell_seam *seam, int seams)
 {
     const struct cell_blocks *cells = gas->cells;
     const struct cell_block *own = &cells->block[seam->block];
@@ -162,6 +167,11 @@ static void fill_seam(const struct gas *gas, int axis, const struct cell_seam *s
     at[axis] = seam->at;
     const struct cell_block *source = cell_block_cover(cells, own->level, at);
     const bool coarse = source->level > own->level;
+    if (!coarse && seams > 1) {
+        fill_seams(gas, axis, &seam[0], 1);
+        fill_seams(gas, axis, &seam[1], 1);
+        return;
+    }
     for (int j = 0; j < own->count[across.second]; j += coarse ? across.seconds : 1)
         for (int i = 0; i < own->count[across.first]; i += coarse ? across.firsts : 1) {
             const struct cell_block *const likely[2] = {own, source};
@@ -169,10 +179,16 @@ static void fill_seam(const struct gas *gas, int axis, const struct cell_seam *s
             at[across.first] = own->corner[across.first] + i;
             at[across.second] = own->corner[across.second] + j;
             if (coarse)
-                put_parts(gas, axis, seam, likely, at, i, j);
+                put_parts(gas, axis, seam, seams, likely, at, i, j);
             else if (take(gas, own->level, at, likely, mean))
                 put(gas, axis, seam, i + j * own->count[across.first], mean);
         }
+}
+
+/* Whether seam B follows A beyond the same end, and both lie in the same cells twice as wide. */
+static bool are_paired(const struct cell_seam *a, const struct cell_seam *b)
+{
+    return a->block == b->block && block_of_cell(a->at, 2) == block_of_cell(b->at, 2);
 }
 
 void gas_fill_seams(const struct gas *gas, int axis, int threads)
@@ -182,7 +198,10 @@ void gas_fill_seams(const struct gas *gas, int axis, int threads)
         return;
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (int32_t s = 0; s < halo->seams; s++)
-        fill_seam(gas, axis, &halo->seam[s]);
+        if (s == 0 || !are_paired(&halo->seam[s - 1], &halo->seam[s]))
+            fill_seams(gas, axis, &halo->seam[s],
+                       s + 1 < halo->seams && are_paired(&halo->seam[s], &halo->seam[s + 1]) ? 2
+                                                                                             : 1);
 }
 
 /* The blocks beside an end of BLOCK along AXIS, where they are of another level. */
