@@ -40,7 +40,7 @@ static void print_bodies(const struct simulation_case *input, const struct estim
 }
 
 /* `density 2697 to 2699 kg/m3` */
-static void print_range(const char *before, const char *what, const struct range *range,
+static void print_range(const char *before, const char *what, const struct extremes *range,
                         const char *unit)
 {
     if (range->low == range->high)

@@ -53,7 +53,7 @@ struct finding {
     struct vec3 start_place;
 };
 
-static void extend(struct range *range, double value)
+static void extend(struct extremes *range, double value)
 {
     range->low = fmin(range->low, value);
     range->high = fmax(range->high, value);
@@ -201,7 +201,7 @@ static struct error *explore_body(const struct overlaps *overlaps, int body,
                                   struct finding *finding)
 {
     const struct simulation_case *input = overlaps->place->input;
-    const struct range none = {NAN, NAN};
+    const struct extremes none = {NAN, NAN};
     *finding = (struct finding){.conflict = -1};
     struct body_summary *summary = &finding->summary;
     summary->density = summary->pressure = summary->temperature = summary->speed = none;

@@ -7,7 +7,7 @@
 #include "model/simulation.h"
 #include "shape/lattice.h"
 
-struct range {
+struct extremes {
     double low, high;
 };
 
@@ -17,7 +17,7 @@ struct body_summary {
     int64_t counted; /* of these, in the box that was asked for */
     double mass;     /* kg, kg/m or kg/m^2 in 3-D, 2-D, 1-D */
     double diameter; /* of a particle, of the mean where they differ, m */
-    struct range density, pressure, temperature,
+    struct extremes density, pressure, temperature,
         speed;            /* at the start; temperature NAN: it has none */
     struct point fastest; /* the state at the start, of particles that differ the one with the
                              fastest sound */

@@ -87,7 +87,7 @@ static void judge_limits(struct findings *findings)
 
 struct contact_side {
     double pressure, sound, impedance;
-    struct range speed;
+    struct extremes speed;
 };
 
 static struct contact_side contact_side_of(const struct simulation_case *input, int body,
