@@ -13,23 +13,77 @@ struct far_bin {
     int32_t layer, rank;
 };
 
-/* All bins of all ranks, by rank, layer and key. */
-static struct error *gather_bins(const struct mpm *mpm, const struct simulation *simulation,
-                                 struct far_bin **all, int64_t *count)
+/* Calls ACT with the key of each block about KEY, itself included, RANGE blocks away at most, until
+ * it returns false. */
+static bool for_blocks_about(uint64_t key, int dimension, int64_t range,
+                             bool (*act)(void *context, uint64_t key), void *context)
+{
+    const int64_t ry = dimension > 1 ? range : 0, rz = dimension > 2 ? range : 0;
+    int64_t own[3];
+    bool goes_on = true;
+    block_coordinates(key, own);
+    for (int64_t x = -range; x <= range; x++)
+        for (int64_t y = -ry; y <= ry; y++)
+            for (int64_t z = -rz; z <= rz && goes_on; z++) {
+                const int64_t at[3] = {own[0] + x, own[1] + y, own[2] + z};
+                goes_on = act(context, block_key(at));
+            }
+    return goes_on;
+}
+
+/* Own bins that other ranks are to hear of. */
+struct telling {
+    const struct partition *partition;
+    int32_t bin, first; /* the bin, and its first item */
+    struct send_item *send;
+    int64_t capacity;
+    int32_t count;
+};
+
+/* The rank that owns the block of KEY hears of the bin, once. */
+static bool tell(void *context, uint64_t key)
+{
+    struct telling *t = context;
+    const int owner = partition_owner(t->partition, key);
+    bool told = owner == t->partition->ranks->rank;
+    for (int32_t k = t->first; k < t->count && !told; k++)
+        told = t->send[k].rank == owner;
+    if (told)
+        return true;
+    if (!memory_reserve((void **)&t->send, &t->capacity, t->count + 1, t->count, sizeof *t->send))
+        return false;
+    t->send[t->count++] = (struct send_item){owner, t->bin};
+    return true;
+}
+
+/* Collective: the bins of other ranks that may lie RANGE blocks from own ones at most, by rank,
+ * layer and key: each rank tells of its bins to those that own the blocks about them. */
+static struct error *hear_of_bins(const struct mpm *mpm, const struct simulation *simulation,
+                                  int64_t range, struct far_bin **heard, int32_t *count)
 {
     const struct bins *bins = &mpm->bins;
-    struct far_bin *own = memory_allocate((size_t)bins->count * sizeof *own);
-    TRY(ranks_agree(simulation->ranks, own ? NULL : out_of_memory_for("blocks of other ranks")));
-    for (int g = 0; g < mpm->layers; g++)
-        for (int32_t b = bins->begin[g]; b < bins->begin[g + 1]; b++)
+    struct telling telling = {.partition = &simulation->partition};
+    struct far_bin *own = memory_allocate(((size_t)bins->count + 1) * sizeof *own);
+    bool room = own != NULL;
+    for (int g = 0; g < mpm->layers && room; g++)
+        for (int32_t b = bins->begin[g]; b < bins->begin[g + 1] && room; b++) {
             own[b] = (struct far_bin){bins->bin[b].key, g, simulation->ranks->rank};
+            telling.bin = b;
+            telling.first = telling.count;
+            room = for_blocks_about(bins->bin[b].key, mpm->layer[0].grid.dimension, range, tell,
+                                    &telling);
+        }
     struct error *error =
-        ranks_gather(simulation->ranks, -1, own, bins->count, sizeof *own, (void **)all, count);
+        ranks_agree(simulation->ranks, room ? NULL : out_of_memory_for("blocks of other ranks"));
+    if (!error)
+        error = exchange_once(simulation->ranks, telling.send, telling.count, own, sizeof *own,
+                              (void **)heard, count);
+    free(telling.send);
     free(own);
     return error;
 }
 
-/* What one walk over the bins of all ranks finds. */
+/* What one walk over the bins that were heard of finds. */
 struct meeting {
     struct block_table table; /* of the keys of own bins */
     int32_t *first;           /* of each key, the first own bin of it; -1 ends a list */
@@ -59,33 +113,40 @@ static bool index_own(const struct mpm *mpm, struct meeting *m)
     return true;
 }
 
+/* Rank RANK needs the own bins at a block beside one of its own. */
+struct meeting_bin {
+    struct meeting *meeting;
+    int32_t rank;
+    bool met;
+};
+
+static bool meet_at(void *context, uint64_t key)
+{
+    struct meeting_bin *of = context;
+    struct meeting *m = of->meeting;
+    const int32_t at = block_table_find(&m->table, key);
+    for (int32_t b = at < 0 ? -1 : m->first[at]; b >= 0; b = m->next[b]) {
+        of->met = true;
+        if (m->told[b] == of->rank)
+            continue;
+        m->told[b] = of->rank;
+        if (!memory_reserve((void **)&m->send, &m->send_capacity, m->sends + 1, m->sends,
+                            sizeof *m->send))
+            return false;
+        m->send[m->sends++] = (struct send_item){of->rank, b};
+    }
+    return true;
+}
+
 /* Takes down that a bin of another rank and the own ones about it need each other; RANGE is how far
  * apart in blocks. */
 static bool meet_bin(const struct mpm *mpm, struct meeting *m, const struct far_bin *far,
                      int64_t range)
 {
-    const int dimension = mpm->layer[0].grid.dimension;
-    const int64_t ry = dimension > 1 ? range : 0, rz = dimension > 2 ? range : 0;
-    int64_t own[3];
-    bool met = false;
-    block_coordinates(far->key, own);
-    for (int64_t x = -range; x <= range; x++)
-        for (int64_t y = -ry; y <= ry; y++)
-            for (int64_t z = -rz; z <= rz; z++) {
-                const int64_t at[3] = {own[0] + x, own[1] + y, own[2] + z};
-                const int32_t key = block_table_find(&m->table, block_key(at));
-                for (int32_t b = key < 0 ? -1 : m->first[key]; b >= 0; b = m->next[b]) {
-                    met = true;
-                    if (m->told[b] == far->rank)
-                        continue;
-                    m->told[b] = far->rank;
-                    if (!memory_reserve((void **)&m->send, &m->send_capacity, m->sends + 1,
-                                        m->sends, sizeof *m->send))
-                        return false;
-                    m->send[m->sends++] = (struct send_item){far->rank, b};
-                }
-            }
-    if (!met)
+    struct meeting_bin of = {.meeting = m, .rank = far->rank};
+    if (!for_blocks_about(far->key, mpm->layer[0].grid.dimension, range, meet_at, &of))
+        return false;
+    if (!of.met)
         return true;
     if (!memory_reserve((void **)&m->far, &m->far_capacity, m->fars + 1, m->fars, sizeof *m->far))
         return false;
@@ -178,15 +239,14 @@ static void meeting_free(struct meeting *m)
 static struct error *plan_halo(struct mpm *mpm, const struct simulation *simulation)
 {
     struct meeting m = {0};
-    struct far_bin *all = NULL;
-    int64_t count = 0;
+    struct far_bin *heard = NULL;
+    int32_t count = 0;
     const int64_t range = mpm->layer[0].grid.reach > 0 ? 2 : 1;
-    TRY(gather_bins(mpm, simulation, &all, &count));
+    TRY(hear_of_bins(mpm, simulation, range, &heard, &count));
     bool done = index_own(mpm, &m);
-    for (int64_t k = 0; k < count && done; k++)
-        if (all[k].rank != simulation->ranks->rank)
-            done = meet_bin(mpm, &m, &all[k], range);
-    free(all);
+    for (int32_t k = 0; k < count && done; k++)
+        done = meet_bin(mpm, &m, &heard[k], range);
+    free(heard);
     if (done && m.sends > 1)
         qsort(m.send, (size_t)m.sends, sizeof *m.send, compare_sends);
     done = done && merge(mpm, &m);
