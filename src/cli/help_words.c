@@ -238,6 +238,12 @@ static const struct answer answers[] = {
      "A gauge whose radius is that of the room records the mean. A worked case with a vent is on\n"
      "the page below (docs/blast.md has the rest).",
      "tasks/vented-room.md"},
+    {" street facade city urban blast.in.street building.blast ",
+     "The blast of a charge in a street, with `solver: gas` and cells of several `levels`: walls "
+     "are\n"
+     "faces of the domain, and `fine` has small cells before each gauge. A worked case is on the\n"
+     "page below; docs/gas.md has the levels.",
+     "tasks/street.md"},
     {" charge.above.plate blast.on.plate blast.plate blast.on.structure cfdmp coupling coupled "
      "gas.and.particles fluid.structure ",
      "A charge above a plate that bends or breaks, with `solver: cfdmp`: gas on a grid, and\n"
