@@ -12,7 +12,7 @@ fail() {
 for name in everything-explosives everything-explosives-mpm everything-gas-two; do
     case=$BOLIDE_SOURCE_DIR/tests/data/${name%-mpm}.yaml
     settings=()
-    [ "$name" = "${name%-mpm}" ] || settings=(--set solver=mpm)
+    [ "$name" = "${name%-mpm}" ] || settings=(--set solver=mpm --set "resolution=62.5 um")
     rm -rf one two four killed
     for threads in 1:one 2:two 4:four; do
         "$BOLIDE" run "$case" "${settings[@]}" --threads "${threads%:*}" --output "${threads#*:}" >run.log 2>&1 ||

@@ -5,9 +5,9 @@
 #include "running.h"
 
 #if defined(BOLIDE_SANITIZE)
-enum { STEPS = 30 };
+enum { STEPS = 16 };
 #else
-enum { STEPS = 120 };
+enum { STEPS = 60 };
 #endif
 
 /* A block strikes another, faces that slip and do not stick, in a corner of mirrors; an inclusion

@@ -31,7 +31,7 @@ static const char text[] =
     "  right: {material: gas, pressure: 10 kPa, box: {from: [9 mm, 0 mm], to: [18 mm, 5 mm]}}\n"
     "walls: {low: {mirror: x, at: 0 mm, side: low}}\n"
     "run: {until: 50 us, max_steps: 9}\n"
-    "output: {history: 1 us, snapshots: no}\n"
+    "output: {history: 1 us, snapshots: no, pictures: []}\n"
     "probes: {first: {tracer: [0 mm, 0 mm]}}\n"
     "checks: {energy: {conserved: energy, within: 1}}\n";
 
