@@ -5,9 +5,9 @@
 #include "running.h"
 
 #if defined(BOLIDE_SANITIZE)
-enum { STEPS = 16 };
+enum { STEPS = 30, STRIDE = 2 }; /* every other variant */
 #else
-enum { STEPS = 60 };
+enum { STEPS = 60, STRIDE = 1 };
 #endif
 
 /* A block strikes another, faces that slip and do not stick, in a corner of mirrors; an inclusion
@@ -143,7 +143,7 @@ static void judge(const char *text)
                   STEPS, (int)builds);
     assert_true(wanted.walls.entry[LEDGER_MOMENTUM_X] != 0.0 ||
                 wanted.walls.entry[LEDGER_MOMENTUM_Y] != 0.0);
-    for (size_t k = 0; k < COUNT_OF(variants); k++) {
+    for (size_t k = 0; k < COUNT_OF(variants); k += STRIDE) {
         struct outcome outcome = outcome_of(text, &variants[k], &builds);
         if (memcmp(&outcome, &wanted, sizeof outcome) != 0)
             print_error("%s: %016llx, rows built %d times\n", variants[k].name,

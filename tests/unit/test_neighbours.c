@@ -367,9 +367,9 @@ static void rows_hold_the_images_behind_walls_and_corners(void **state)
 {
     (void)state;
 #if defined(BOLIDE_SANITIZE)
-    enum { STEPS = 30 };
+    enum { STEPS = 12 };
 #else
-    enum { STEPS = 100 };
+    enum { STEPS = 40 };
 #endif
     struct dice dice = {9};
     for (unsigned walls = 1; walls < 4; walls++)
@@ -449,9 +449,9 @@ static void rows_hold_across_periodic_faces(void **state)
 {
     (void)state;
 #if defined(BOLIDE_SANITIZE)
-    enum { STEPS = 30 };
+    enum { STEPS = 12 };
 #else
-    enum { STEPS = 100 };
+    enum { STEPS = 40 };
 #endif
     struct dice dice = {11};
     stream(1, 40, STEPS, 1, 0.004, &dice);

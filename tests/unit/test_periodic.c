@@ -6,9 +6,9 @@
 #include "parallel/periodic.h"
 
 #if defined(BOLIDE_SANITIZE)
-enum { STEPS = 20 };
+enum { STEPS = 10 };
 #else
-enum { STEPS = 80 };
+enum { STEPS = 40 };
 #endif
 
 #define AIR "materials: {air: {eos: {ideal-gas: {density: 1 kg/m^3, gamma: 1.4}}}}\n"
