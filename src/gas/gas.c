@@ -289,7 +289,7 @@ static struct error *gas_start(void *solver, struct simulation *simulation)
 /* Blocks go to other ranks where the case has space divided anew, or one has worked longer. */
 static struct error *balance(struct gas *gas, struct simulation *simulation)
 {
-    enum { STEPS = 10 };
+    enum { STEPS = 50 };
     const int64_t every = simulation->problem->input->run.rebalance;
     const int64_t step = simulation->step;
     if (simulation->ranks->size < 2 || step == 0 || step % (every > 0 ? every : STEPS) != 0)
@@ -299,8 +299,8 @@ static struct error *balance(struct gas *gas, struct simulation *simulation)
     int64_t *work = memory_allocate(((size_t)cells->blocks + 1) * sizeof *work);
     TRY(ranks_agree(simulation->ranks, work ? NULL : out_of_memory_for("blocks of cells")));
     for (int32_t b = 0; b < cells->blocks; b++) {
-        work[b] = 1 + gas->block[b].sweeps; /* those that sleep are looked at */
-        gas->block[b].sweeps = 0;
+        work[b] = gas->block[b].work;
+        gas->block[b].work = 0;
     }
     struct error *error = cell_blocks_distribute(cells, work, every > 0);
     free(work);

@@ -52,7 +52,7 @@ struct gas_block {
     bool shocked,
         stale;      /* strong shocks are in it, in what sweeps wrote before it became its state */
     bool same;      /* what sweeps wrote last is its state */
-    int64_t sweeps; /* that took it since ranks last compared their work */
+    int64_t work;   /* in any unit, since ranks last compared theirs */
 };
 
 /* The event that sweeps are repeated in two halves, see strips.c. */

@@ -10,6 +10,9 @@
 #include "base/memory.h"
 #include "gas/gas_internal.h"
 
+/* How much longer than to find that a block sleeps it takes to sweep it, as measured in 3-D. */
+enum { SWEEP_WORK = 5 };
+
 const char gas_repetition[] = "repetition of sweeps that would empty a cell";
 
 static void free_strips(struct gas_strips *strips)
@@ -310,9 +313,9 @@ static void choose_strips(struct gas *gas, const struct simulation *simulation, 
             if (!strips->strip[s].sleeps) {
                 gas->block[b].awake = true;
                 gas->block[b].same = false;
-                gas->block[b].sweeps++;
             } else if (!gas->block[b].same)
                 copy_block(gas, b);
+            gas->block[b].work += strips->strip[s].sleeps ? 1 : SWEEP_WORK;
         }
 }
 
@@ -422,6 +425,7 @@ static struct error *sweep_once(struct gas *gas, struct simulation *simulation, 
     own |= gas_match_seams(gas, axis, dt, simulation->threads);
     simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
     *spent = ranks_maximum(simulation->ranks, own) > 0.0;
+    simulation_end_waiting(simulation);
     return NULL;
 }
 
