@@ -50,9 +50,9 @@ struct gas_block {
     bool burns; /* what has burnt of its explosive has just changed */
     bool awake; /* a sweep of this step took it, or it was not still at its start */
     bool shocked,
-        stale;      /* strong shocks are in it, in what sweeps wrote before it became its state */
-    bool same;      /* what sweeps wrote last is its state */
-    int64_t work;   /* in any unit, since ranks last compared theirs */
+        stale;    /* strong shocks are in it, in what sweeps wrote before it became its state */
+    bool same;    /* what sweeps wrote last is its state */
+    int64_t work; /* in any unit, since ranks last compared theirs */
 };
 
 /* The event that sweeps are repeated in two halves, see strips.c. */
