@@ -192,14 +192,14 @@ static void write_kind_of_thing(struct writer *w, const struct parameter *p)
     end(w, ']');
 }
 
-/* A map with the keys of TABLE. Where one of them is `library`, the file that it names fills the
- * rest. */
+/* A map with the keys of TABLE; in a part of a case it may have no value, which removes it. Where a
+ * key is `library`, the file that it names fills the rest. */
 static void write_map_of(struct writer *w, const struct parameter *table)
 {
     bool has_library = false;
     for (const struct parameter *p = table; !PARAMETER_IS_END(p); p++)
         has_library = has_library || (p->key && !strcmp(p->key, "library"));
-    text(w, "type", "object");
+    plain(w, "type", w->part ? "[\"object\", \"null\"]" : "\"object\"");
     if (!has_library || w->part) {
         write_table(w, table);
         return;
