@@ -144,7 +144,7 @@ struct error *run_take_step(struct run *run)
     run->sound = false;
     simulation_start_phase(simulation);
     TRY(run->method->prepare(run->solver, simulation, &run->limit));
-    if (run->input->levels > 1) /* cells come and go with waves */
+    if (run->input->levels > 1) /* cells divide and merge */
         run->particles = simulation_members(simulation);
     const double event = minimum(run->limit.event, run->input->run.until);
     double dt = step_towards(run->limit.dt, simulation->time, event);
@@ -158,8 +158,6 @@ struct error *run_take_step(struct run *run)
     maps_update(simulation, dt);
     run->step = dt;
     run->sound = true;
-    if (run->input->levels > 1) /* cells divide and merge in a step */
-        run->particles = simulation_members(simulation);
     run->result->updates += run->particles;
     return NULL;
 }
