@@ -77,7 +77,7 @@ static bool burn_block(struct gas *gas, const struct simulation_case *input, int
 {
     const struct cell_blocks *cells = gas->cells;
     const struct cell_block *block = &cells->block[b];
-    const int32_t end = block->first + block->count[0] * block->count[1] * block->count[2];
+    const int32_t end = block->first + cell_block_cells(block);
     const struct burn *burn =
         &case_material(input, gas->material[gas->layout.explosive])->material->burn;
     double *burnt = gas->u[gas->layout.burnt];
@@ -212,7 +212,7 @@ static void afterburn_block(struct gas *gas, int32_t b, double dt, struct ledger
 {
     const struct cell_blocks *cells = gas->cells;
     const struct cell_block *block = &cells->block[b];
-    const int32_t end = block->first + block->count[0] * block->count[1] * block->count[2];
+    const int32_t end = block->first + cell_block_cells(block);
     const double done = gas->most_afterburnt * (1.0 - 1e-9), /* what rounding leaves */
         *burnt = gas->layout.lit ? gas->u[gas->layout.burnt] : NULL;
     for (int32_t i = block->first; i < end; i++) {

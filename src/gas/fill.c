@@ -259,7 +259,7 @@ static void fill_block(struct filling *f, const struct cell_block *block)
     for (int b = 0; b < f->simulation->problem->input->bodies.count; b++)
         if (meets(&f->bounds[b], low, high, cells->dimension))
             f->near[f->nears++] = b;
-    const int32_t end = block->first + block->count[0] * block->count[1] * block->count[2];
+    const int32_t end = block->first + cell_block_cells(block);
     for (int32_t i = block->first; i < end && !f->error; i++)
         fill_cell(f, i);
 }

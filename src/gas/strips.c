@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "gas/gas_internal.h"
 
-/* How much longer than to find that a block sleeps it takes to sweep it, as measured in 3-D. */
+/* How much longer than to find that a block sleeps it takes to sweep it, about, in 3-D. */
 enum { SWEEP_WORK = 5 };
 
 const char gas_repetition[] = "repetition of sweeps that would empty a cell";
@@ -175,11 +175,16 @@ static bool is_cut(const struct gas *gas, const struct gas_strip *strip, int axi
     return inside && (cut->open[axis][0] || cut->open[axis][1]);
 }
 
+/* Of a plane across AXIS. */
+static int rows_across(const struct cell_block *block, int axis)
+{
+    return cell_block_cells(block) / block->count[axis];
+}
+
 /* Whether a plane beyond an end of block B along AXIS holds what block A does, which is still. */
 static bool is_plane_alike(const struct gas *gas, int32_t a, int axis, int32_t b, int32_t plane)
 {
-    const struct cell_block *block = &gas->cells->block[b];
-    const int rows = block->count[0] * block->count[1] * block->count[2] / block->count[axis];
+    const int rows = rows_across(&gas->cells->block[b], axis);
     const int32_t first = gas->cells->block[a].first;
     bool alike = true;
     for (int n = 0; n < gas->layout.fields && alike; n++) {
@@ -195,8 +200,7 @@ static bool is_plane_alike(const struct gas *gas, int32_t a, int axis, int32_t b
 static bool is_copy_alike(const struct gas *gas, int32_t a, int32_t b)
 {
     const struct cell_block *copy = &gas->cells->block[b];
-    const int32_t first = gas->cells->block[a].first,
-                  end = copy->first + copy->count[0] * copy->count[1] * copy->count[2];
+    const int32_t first = gas->cells->block[a].first, end = copy->first + cell_block_cells(copy);
     bool alike = true;
     for (int n = 0; n < gas->layout.written && alike; n++)
         for (int32_t i = copy->first; i < end; i++)
@@ -238,7 +242,7 @@ static bool may_sleep(const struct gas *gas, const struct gas_strip *strip, int 
 static void copy_block(struct gas *gas, int32_t b)
 {
     const struct cell_block *block = &gas->cells->block[b];
-    const size_t cells = (size_t)(block->count[0] * block->count[1] * block->count[2]);
+    const size_t cells = (size_t)cell_block_cells(block);
     for (int n = 0; n < gas->layout.written; n++)
         memcpy(gas->other[n] + block->first, gas->u[n] + block->first, cells * sizeof(double));
     gas->block[b].same = true;
@@ -247,8 +251,7 @@ static void copy_block(struct gas *gas, int32_t b)
 /* Whether a plane beyond an end of block B along AXIS has no shock. */
 static bool is_plane_calm(const struct gas *gas, int axis, int32_t b, int32_t plane)
 {
-    const struct cell_block *block = &gas->cells->block[b];
-    const int rows = block->count[0] * block->count[1] * block->count[2] / block->count[axis];
+    const int rows = rows_across(&gas->cells->block[b], axis);
     const double *shock = cell_plane(&gas->halo, gas->cells->dimension, axis, plane, GAS_SHOCK);
     bool calm = true;
     for (int row = 0; row < rows; row++)
@@ -260,7 +263,7 @@ static bool is_plane_calm(const struct gas *gas, int axis, int32_t b, int32_t pl
 static bool is_copy_calm(const struct gas *gas, int32_t b)
 {
     const struct cell_block *copy = &gas->cells->block[b];
-    const int32_t end = copy->first + copy->count[0] * copy->count[1] * copy->count[2];
+    const int32_t end = copy->first + cell_block_cells(copy);
     bool calm = true;
     for (int32_t i = copy->first; i < end; i++)
         calm &= gas->u[GAS_SHOCK][i] == 0.0;

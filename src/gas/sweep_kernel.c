@@ -421,7 +421,7 @@ ISA_KERNEL(struct gas_fastest, gas_look_at_block, const struct gas_look *look, i
     const double volume = look->cells->dimension == 1   ? h
                           : look->cells->dimension == 2 ? h * h
                                                         : h * h * h;
-    const int32_t end = block->first + block->count[0] * block->count[1] * block->count[2];
+    const int32_t end = block->first + cell_block_cells(block);
     struct gas_fastest fastest = {-1.0, block->first, is_still(look, block->first, end)};
     struct row_values values;
     struct run run;

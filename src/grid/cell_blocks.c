@@ -173,7 +173,7 @@ static struct error *place_blocks(struct cell_blocks *cells)
     for (int32_t b = 0; b < cells->blocks; b++) {
         struct cell_block *block = &cells->block[b];
         block->first = (int32_t)count;
-        count += (int64_t)block->count[0] * block->count[1] * block->count[2];
+        count += cell_block_cells(block);
         block_table_add(&cells->table, block->key);
         if (count > INT32_MAX)
             return error_new(ERROR_STATE, "more than %d cells on one rank", INT32_MAX);
@@ -330,17 +330,13 @@ static size_t bytes_that_go(const struct cell_blocks *cells)
                                            (size_t)cell_block_room(cells->dimension);
 }
 
-static int32_t cells_of(const struct cell_block *block)
-{
-    return block->count[0] * block->count[1] * block->count[2];
-}
-
 static void pack(const struct cell_blocks *cells, const struct cell_block *block, char *out)
 {
     memcpy(out, block, sizeof *block);
     out += sizeof *block;
     for (int k = 0; k < cells->fields; k++) {
-        const size_t bytes = field_bytes(&cells->field[k]), all = bytes * (size_t)cells_of(block);
+        const size_t bytes = field_bytes(&cells->field[k]),
+                     all = bytes * (size_t)cell_block_cells(block);
         if (!(cells->field[k].declaration.kind & FIELD_STATE))
             continue;
         memcpy(out, (const char *)cells->field[k].data + (size_t)block->first * bytes, all);
@@ -352,7 +348,8 @@ static void unpack(struct cell_blocks *cells, const struct cell_block *block, co
 {
     in += sizeof *block;
     for (int k = 0; k < cells->fields; k++) {
-        const size_t bytes = field_bytes(&cells->field[k]), all = bytes * (size_t)cells_of(block);
+        const size_t bytes = field_bytes(&cells->field[k]),
+                     all = bytes * (size_t)cell_block_cells(block);
         if (!(cells->field[k].declaration.kind & FIELD_STATE))
             continue;
         memcpy((char *)cells->field[k].data + (size_t)block->first * bytes, in, all);
@@ -384,8 +381,9 @@ static struct error *divide(struct cell_blocks *cells, const int64_t *work, bool
     struct block_weight *own = memory_allocate(((size_t)cells->blocks + 1) * sizeof *own);
     struct error *error = ranks_agree(cells->ranks, own ? NULL : out_of_memory_for("cells"));
     for (int32_t b = 0; b < cells->blocks && !error; b++)
-        own[b] = (struct block_weight){cells->block[b].key, (double)cells_of(&cells->block[b]) *
-                                                                (work ? (double)work[b] : 1.0)};
+        own[b] =
+            (struct block_weight){cells->block[b].key, (double)cell_block_cells(&cells->block[b]) *
+                                                           (work ? (double)work[b] : 1.0)};
     if (!error)
         error = partition_divide(cells->partition, own, cells->blocks, anyway, anew);
     free(own);

@@ -93,6 +93,12 @@ BOLIDE_INLINE int32_t cell_stride(const struct cell_block *block, int axis)
     return axis == 0 ? 1 : axis == 1 ? block->count[0] : block->count[0] * block->count[1];
 }
 
+/* How many cells it has. */
+BOLIDE_INLINE int32_t cell_block_cells(const struct cell_block *block)
+{
+    return block->count[0] * block->count[1] * block->count[2];
+}
+
 /* The edge of its cells, m. */
 BOLIDE_INLINE double cell_block_edge(const struct cell_blocks *cells,
                                      const struct cell_block *block)

@@ -113,7 +113,7 @@ static struct error *append(struct cell_blocks *cells, struct found *found)
         *copy = found->block[k];
         copy->first = (int32_t)held;
         block_table_add(&cells->table, copy->key);
-        held += (int64_t)copy->count[0] * copy->count[1] * copy->count[2];
+        held += cell_block_cells(copy);
         if (held > INT32_MAX) {
             free(block);
             return error_new(ERROR_STATE, "more than %d cells on one rank", INT32_MAX);
@@ -211,11 +211,6 @@ struct error *cell_copies_plan(struct cell_copies *copies, const struct cell_blo
     return error;
 }
 
-static size_t cells_of(const struct cell_block *block)
-{
-    return (size_t)(block->count[0] * block->count[1] * block->count[2]);
-}
-
 void cell_copies_start(struct cell_copies *copies, const struct cell_blocks *cells,
                        const double *const *field)
 {
@@ -226,7 +221,7 @@ void cell_copies_start(struct cell_copies *copies, const struct cell_blocks *cel
     for (int32_t k = 0; k < copies->exchange.goes; k++) {
         const struct cell_block *block = &cells->block[copies->sent[copies->exchange.send[k].item]];
         for (int n = 0; n < copies->numbers; n++, out += room)
-            memcpy(out, field[n] + block->first, cells_of(block) * sizeof *out);
+            memcpy(out, field[n] + block->first, (size_t)cell_block_cells(block) * sizeof *out);
     }
     exchange_start(&copies->exchange, NULL, room * (size_t)copies->numbers * sizeof *out,
                    copies->came);
@@ -243,6 +238,6 @@ void cell_copies_finish(struct cell_copies *copies, const struct cell_blocks *ce
     for (int32_t k = 0; k < cells->copies; k++) {
         const struct cell_block *block = &cells->block[cells->blocks + k];
         for (int n = 0; n < copies->numbers; n++, in += room)
-            memcpy(field[n] + block->first, in, cells_of(block) * sizeof *in);
+            memcpy(field[n] + block->first, in, (size_t)cell_block_cells(block) * sizeof *in);
     }
 }

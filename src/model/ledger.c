@@ -183,7 +183,7 @@ static double sum_by_halves(double value[MEMBERS], int count)
 static void add_block(const struct population *population, const struct cell_block *block, int body,
                       struct exact_sum sum[TOTALS])
 {
-    const int32_t end = block->first + block->count[0] * block->count[1] * block->count[2];
+    const int32_t end = block->first + cell_block_cells(block);
     for (int32_t first = block->first; first < end; first += MEMBERS) {
         struct own_totals own;
         take_members(population, first, end_of(first, end), body, &own);

@@ -13,11 +13,6 @@ static int64_t points_along(const struct mesh *mesh, const struct cell_block *bl
     return axis < mesh->population->dimension ? block->count[axis] + 1 : 1;
 }
 
-static int64_t cells_of(const struct cell_block *block)
-{
-    return (int64_t)block->count[0] * block->count[1] * block->count[2];
-}
-
 static struct error *find_points(struct mesh *mesh)
 {
     const struct population *p = mesh->population;
@@ -87,7 +82,7 @@ void mesh_fill_corners(const void *of, int64_t begin, int64_t end, void *out)
             *corner++ = mesh->before + i;
             continue;
         }
-        while (i >= p->block[b].first + cells_of(&p->block[b]))
+        while (i >= p->block[b].first + cell_block_cells(&p->block[b]))
             b++;
         const struct cell_block *block = &p->block[b];
         const int64_t cell = i - block->first, row = points_along(mesh, block, 0),
