@@ -151,20 +151,40 @@ static void add_particle(const struct probe *probe, const struct population *pop
     exact_sum_add(&sums[count + 1], volume);
 }
 
+/* Where a gauge stands, and its radius. */
+struct place_around {
+    const struct vector_value *at;
+    double radius;
+};
+
+static bool is_near(const void *context, const struct population *population, int32_t index)
+{
+    const struct place_around *place = context;
+    return distance_square(place->at, population->position[index]) <=
+           square(probe_reach(population, index, place->radius));
+}
+
 static struct error *sample(struct probe *probe, const struct simulation *simulation,
                             const struct population *population, double *row)
 {
     const struct probe_gauge *gauge = probe->input->probe.value;
     const int count = probe->fields->count;
-    const double radius = radius_of(probe, simulation);
+    const struct place_around place = {&gauge->at, radius_of(probe, simulation)};
     struct exact_sum *sums = memory_allocate(((size_t)count + 2) * sizeof *sums);
-    TRY(ranks_agree(simulation->ranks, sums ? NULL : out_of_memory_for("a gauge")));
-    for (int32_t i = 0; i < population->count; i++)
+    struct error *error = sums ? NULL : out_of_memory_for("a gauge");
+    if (!error)
+        error = probe_find_near(probe, population, is_near, &place);
+    error = ranks_agree(simulation->ranks, error);
+    if (error) {
+        free(sums);
+        return error;
+    }
+    for (int64_t k = 0; k < probe->nears; k++) {
+        const int32_t i = probe->near[k];
         if (population_has(population, i) &&
-            distance_square(&gauge->at, population->position[i]) <=
-                square(probe_reach(population, i, radius)) &&
             (probe->selection.body < 0 || population->body[i] == probe->selection.body))
             add_particle(probe, population, i, sums);
+    }
     ranks_sum_exact(simulation->ranks, sums, count + 2);
     double volume = exact_sum_value(&sums[count + 1]);
     row[0] = exact_sum_value(&sums[count]);

@@ -71,22 +71,39 @@ struct sampling {
     struct exact_sum *sums;
 };
 
-/* Adds member INDEX to the points that are near it. */
-static void add_member(const struct sampling *s, int32_t index)
+/* The points that member INDEX is near, FIRST .. LAST: none where LAST is less. */
+static void find_points(const struct sampling *s, const struct population *population,
+                        int32_t index, double *first, double *last)
 {
     const struct probe_line *line = line_of(s->probe);
-    const double *at = s->population->position[index];
+    const double *at = population->position[index];
     double along = 0.0, square_of_distance = 0.0;
     for (int axis = 0; axis < s->dimension; axis++)
         along += (at[axis] - line->from.at[axis]) * s->along[axis];
     square_of_distance = distance_square(&line->from, at) - square(along);
     const double reach =
-        square(probe_reach(s->population, index, s->radius)) - maximum(square_of_distance, 0.0);
+        square(probe_reach(population, index, s->radius)) - maximum(square_of_distance, 0.0);
+    *first = 0.0;
+    *last = -1.0;
     if (!(reach >= 0.0))
         return;
     const double half = sqrt(reach) * (1.0 + 1e-9);
-    const double first = maximum(ceil((along - half) / s->spacing), 0.0),
-                 last = minimum(floor((along + half) / s->spacing), s->points - 1.0);
+    *first = maximum(ceil((along - half) / s->spacing), 0.0);
+    *last = minimum(floor((along + half) / s->spacing), s->points - 1.0);
+}
+
+static bool is_near(const void *context, const struct population *population, int32_t index)
+{
+    double first, last;
+    find_points(context, population, index, &first, &last);
+    return last >= first;
+}
+
+/* Adds member INDEX to the points that it is near. */
+static void add_member(const struct sampling *s, int32_t index)
+{
+    double first, last;
+    find_points(s, s->population, index, &first, &last);
     const double volume = s->population->mass[index] / s->population->density[index];
     for (int k = (int)first; k <= last; k++) {
         struct exact_sum *sums = s->sums + (int64_t)k * (s->fields + 1);
@@ -113,11 +130,20 @@ static struct error *sample(struct probe *probe, const struct simulation *simula
     for (int axis = 0; axis < s.dimension; axis++)
         s.along[axis] = (line->to.at[axis] - line->from.at[axis]) / length;
     s.sums = memory_allocate((size_t)sums * sizeof *s.sums);
-    TRY(ranks_agree(simulation->ranks, s.sums ? NULL : out_of_memory_for("a line")));
-    for (int32_t i = 0; i < population->count; i++)
+    struct error *error = s.sums ? NULL : out_of_memory_for("a line");
+    if (!error)
+        error = probe_find_near(probe, population, is_near, &s);
+    error = ranks_agree(simulation->ranks, error);
+    if (error) {
+        free(s.sums);
+        return error;
+    }
+    for (int64_t k = 0; k < probe->nears; k++) {
+        const int32_t i = probe->near[k];
         if (population_has(population, i) &&
             (probe->selection.body < 0 || population->body[i] == probe->selection.body))
             add_member(&s, i);
+    }
     ranks_sum_exact(simulation->ranks, s.sums, sums);
     for (int i = 0; i < s.fields; i++)
         for (int k = 0; k < s.points; k++) {

@@ -45,12 +45,33 @@ void probes_free(struct probes *probes)
         free(probes->item[i].column);
         free(probes->item[i].fields);
         free(probes->item[i].value);
+        free(probes->item[i].near);
         free(probes->item[i].solved);
         free(probes->item[i].text);
         free(probes->item[i].path);
     }
     free(probes->item);
     *probes = (struct probes){0, NULL};
+}
+
+struct error *probe_find_near(struct probe *probe, const struct population *population,
+                              probe_is_near *is_near, const void *context)
+{
+    if (population->kind == POPULATION_OF_CELLS && probe->near && probe->order == population->order)
+        return NULL;
+    probe->nears = 0;
+    probe->order = population->order;
+    for (int32_t i = 0; i < population->count; i++) {
+        if (!is_near(context, population, i))
+            continue;
+        if (!memory_reserve((void **)&probe->near, &probe->near_room, probe->nears + 1,
+                            probe->nears, sizeof *probe->near))
+            return out_of_memory_for("a probe");
+        probe->near[probe->nears++] = i;
+    }
+    return memory_reserve((void **)&probe->near, &probe->near_room, 1, 0, sizeof *probe->near)
+               ? NULL
+               : out_of_memory_for("a probe");
 }
 
 struct error *probe_error(const struct probe *probe, const struct simulation *simulation,

@@ -28,8 +28,10 @@ struct probe {
     int64_t rows, due; /* taken; times that `every` has passed */
     int64_t step;      /* of the last row */
     uint64_t id;       /* tracer: of its particle, known from the first row on */
-    uint64_t order;    /* tracer: of the store, for which `index` holds */
-    int32_t index;
+    uint64_t order;    /* of the store, for which `index` and `near` hold */
+    int32_t index;     /* tracer */
+    int32_t *near;     /* gauge, line: the members that may count, by number; NULL: not known */
+    int64_t nears, near_room;
     void *solved;  /* gauge: the exact solution that is recorded beside it; NULL: none */
     double failed; /* tracer: when its particle failed, s; -1: it has not, or it had at the start */
     bool kept;     /* a check reads the rows */
@@ -165,6 +167,12 @@ static inline double probe_reach(const struct population *population, int32_t in
                ? maximum(radius, 0.501 * sqrt((double)population->dimension) * size)
                : radius;
 }
+
+/* For the kinds: the members that IS_NEAR, with CONTEXT, says yes to become those of `near`. Cells
+ * stay where they are: theirs are found once. */
+typedef bool probe_is_near(const void *context, const struct population *population, int32_t index);
+struct error *probe_find_near(struct probe *probe, const struct population *population,
+                              probe_is_near *is_near, const void *context);
 
 /* For the kinds: whether PLACE, which KEY gives, has a number a dimension; columns for the fields
  * that the case names, which are chosen here, behind those that are chosen already. */
