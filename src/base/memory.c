@@ -1,6 +1,8 @@
 /* Memory and text on the heap; see memory.h. */
 #include "base/memory.h"
 
+#include <limits.h>
+#include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,6 +34,12 @@ void *memory_allocate(size_t size)
     if (memory)
         memset(memory, 0, size);
     return memory;
+}
+
+void memory_keep_freed(void)
+{
+    mallopt(M_MMAP_MAX, 0);
+    mallopt(M_TRIM_THRESHOLD, INT_MAX);
 }
 
 bool memory_reserve(void **array, int64_t *capacity, int64_t needed, int64_t kept, size_t element)

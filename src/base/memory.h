@@ -12,6 +12,10 @@ enum { MEMORY_ALIGNMENT = 64 };
 /* SIZE bytes aligned to MEMORY_ALIGNMENT, zeroed; NULL when memory is out. Free with free(). */
 void *memory_allocate(size_t size);
 
+/* From now on the process keeps memory that is freed, to give it out again: for large arrays that
+ * come and go during a run, whose pages the system would have to clear each time. */
+void memory_keep_freed(void);
+
 /* Makes *array hold at least NEEDED elements of ELEMENT bytes, keeping its first KEPT elements.
  * *capacity counts elements and grows by half at least; what is new is not cleared. False when
  * memory is out. */
