@@ -308,6 +308,11 @@ void cell_halo_start(struct cell_halo *halo, const struct cell_blocks *cells, in
     exchange_start(&of->exchange, NULL, bytes, of->plane);
 }
 
+void cell_halo_advance(struct cell_halo *halo, int axis)
+{
+    exchange_advance(&halo->axis[axis].exchange);
+}
+
 void cell_halo_finish(struct cell_halo *halo, int axis)
 {
     if (halo->axis[axis].exchange.message)

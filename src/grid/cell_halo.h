@@ -65,9 +65,10 @@ struct error *cell_halo_plan(struct cell_halo *halo, const struct cell_blocks *c
 void cell_halo_free(struct cell_halo *halo);
 
 /* Sends to other ranks what they want along AXIS of FIELD, arrays of as many numbers as the halo
- * has; planes hold what comes after finish. */
+ * has; planes hold what comes after finish. Who computes before calls advance from time to time. */
 void cell_halo_start(struct cell_halo *halo, const struct cell_blocks *cells, int axis,
                      const double *const *field);
+void cell_halo_advance(struct cell_halo *halo, int axis);
 void cell_halo_finish(struct cell_halo *halo, int axis);
 
 /* Number N of plane P; its cells run along the lower of the two other axes first. */

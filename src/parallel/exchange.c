@@ -93,6 +93,11 @@ void exchange_start(struct exchange *exchange, const void *items, size_t bytes, 
     ranks_start(exchange->message, exchange->messages, bytes, exchange->requests);
 }
 
+void exchange_advance(struct exchange *exchange)
+{
+    ranks_advance(exchange->messages, exchange->requests);
+}
+
 void exchange_finish(struct exchange *exchange)
 {
     ranks_finish(exchange->messages, exchange->requests);

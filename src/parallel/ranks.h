@@ -87,10 +87,12 @@ struct message {
     int64_t items;
 };
 
-/* Starts COUNT messages of items of BYTES each, and waits for them. REQUESTS has room for them
- * (ranks_request_size() each). */
+/* Starts COUNT messages of items of BYTES each, lets them proceed, and waits for them. REQUESTS has
+ * room for them (ranks_request_size() each). A large message proceeds only while both ranks are in
+ * calls: who computes meanwhile calls ranks_advance from time to time, on the first thread. */
 size_t ranks_request_size(void);
 void ranks_start(const struct message *messages, int count, size_t bytes, void *requests);
+void ranks_advance(int count, void *requests);
 void ranks_finish(int count, void *requests);
 
 /* Collective: NULL when no rank has an error; else every rank gets one, the lowest rank's. Called

@@ -102,6 +102,12 @@ void ranks_start(const struct message *messages, int count, size_t bytes, void *
     assert(count == 0);
 }
 
+void ranks_advance(int count, void *requests)
+{
+    (void)count;
+    (void)requests;
+}
+
 void ranks_finish(int count, void *requests)
 {
     (void)count;

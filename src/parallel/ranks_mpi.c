@@ -238,6 +238,13 @@ void ranks_start(const struct message *messages, int count, size_t bytes, void *
     MPI_Type_free(&type);
 }
 
+void ranks_advance(int count, void *requests)
+{
+    int done;
+    if (count)
+        MPI_Testall(count, requests, &done, MPI_STATUSES_IGNORE);
+}
+
 void ranks_finish(int count, void *requests)
 {
     if (count)
