@@ -357,23 +357,46 @@ static void unpack(struct cell_blocks *cells, const struct cell_block *block, co
     }
 }
 
-/* COUNT packed blocks at PACKED become the rank's own, with COPIES of those beside them. */
-static struct error *take_in(struct cell_blocks *cells, const char *packed, int32_t count,
-                             bool copies)
+/* The cells of a block that stays, from FIRST of the arrays that there were, to where they are. */
+static void keep(struct cell_blocks *cells, const struct cell_block *block,
+                 const struct field *before, int32_t first)
+{
+    for (int k = 0; k < cells->fields; k++) {
+        const size_t bytes = field_bytes(&cells->field[k]);
+        if (cells->field[k].declaration.kind & FIELD_STATE)
+            memcpy((char *)cells->field[k].data + (size_t)block->first * bytes,
+                   (const char *)before[k].data + (size_t)first * bytes,
+                   bytes * (size_t)cell_block_cells(block));
+    }
+}
+
+/* Blocks that stay, COUNT of STAYS, and so many packed ones at PACKED become the rank's own, with
+ * COPIES of those beside them. */
+static struct error *take_in(struct cell_blocks *cells, const struct cell_block *stays,
+                             int32_t count, const char *packed, int32_t came, bool copies)
 {
     const size_t bytes = bytes_that_go(cells);
-    struct cell_block *block = memory_allocate(((size_t)count + 1) * sizeof *block);
+    struct field before[CELL_BLOCK_FIELDS];
+    struct cell_block *block = memory_allocate(((size_t)(count + came) + 1) * sizeof *block);
     if (!block)
         return out_of_memory_for("cells");
-    for (int32_t b = 0; b < count; b++)
-        memcpy(&block[b], packed + (size_t)b * bytes, sizeof *block);
-    TRY(take_own(cells, block, count, copies));
-    for (int32_t b = 0; b < count; b++) {
-        struct cell_block came;
-        memcpy(&came, packed + (size_t)b * bytes, sizeof came);
-        unpack(cells, cell_block_find(cells, came.key), packed + (size_t)b * bytes);
+    memcpy(before, cells->field, sizeof before);
+    for (int k = 0; k < cells->fields; k++)
+        cells->field[k].data = NULL;
+    memcpy(block, stays, (size_t)count * sizeof *block);
+    for (int32_t b = 0; b < came; b++)
+        memcpy(&block[count + b], packed + (size_t)b * bytes, sizeof *block);
+    struct error *error = take_own(cells, block, count + came, copies);
+    for (int32_t b = 0; b < count && !error; b++)
+        keep(cells, cell_block_find(cells, stays[b].key), before, stays[b].first);
+    for (int32_t b = 0; b < came && !error; b++) {
+        struct cell_block at;
+        memcpy(&at, packed + (size_t)b * bytes, sizeof at);
+        unpack(cells, cell_block_find(cells, at.key), packed + (size_t)b * bytes);
     }
-    return NULL;
+    for (int k = 0; k < cells->fields; k++)
+        free(before[k].data);
+    return error;
 }
 
 static struct error *divide(struct cell_blocks *cells, const int64_t *work, bool anyway, bool *anew)
@@ -390,23 +413,56 @@ static struct error *divide(struct cell_blocks *cells, const int64_t *work, bool
     return error;
 }
 
-/* Blocks go where SEND, so many, says, packed, be it to this rank; what comes takes their place,
- * with COPIES of those beside it. */
+/* Room for what of SEND goes to other ranks, and for what stays. */
+struct passing {
+    struct cell_block *stays;
+    struct send_item *away;
+    char *packed; /* in the order of `away` */
+    int32_t count, goes;
+};
+
+static struct error *pack_all(const struct cell_blocks *cells, const struct send_item *send,
+                              int32_t sends, struct passing *p)
+{
+    const size_t bytes = bytes_that_go(cells);
+    for (int32_t k = 0; k < sends; k++)
+        p->goes += send[k].rank != cells->ranks->rank;
+    p->stays = memory_allocate(((size_t)(sends - p->goes) + 1) * sizeof *p->stays);
+    p->away = memory_allocate(((size_t)p->goes + 1) * sizeof *p->away);
+    p->packed = memory_allocate((size_t)p->goes * bytes + 1);
+    if (!p->stays || !p->away || !p->packed)
+        return out_of_memory_for("cells");
+    int32_t goes = 0;
+    for (int32_t k = 0; k < sends; k++) {
+        const struct cell_block *block = &cells->block[send[k].item];
+        if (send[k].rank == cells->ranks->rank) {
+            p->stays[p->count++] = *block;
+            continue;
+        }
+        p->away[goes] = (struct send_item){send[k].rank, goes};
+        pack(cells, block, p->packed + (size_t)goes++ * bytes);
+    }
+    return NULL;
+}
+
+/* Blocks go where SEND, so many, says, be it to this rank; what comes takes their place, with
+ * COPIES of those beside it. */
 static struct error *pass_blocks(struct cell_blocks *cells, const struct send_item *send,
                                  int32_t sends, bool copies)
 {
-    const size_t bytes = bytes_that_go(cells);
-    char *packed = memory_allocate(((size_t)cells->blocks + 1) * bytes);
-    struct error *error = ranks_agree(cells->ranks, packed ? NULL : out_of_memory_for("cells"));
+    struct passing passing = {0};
     void *came = NULL;
     int32_t count = 0;
-    for (int32_t b = 0; b < cells->blocks && !error; b++)
-        pack(cells, &cells->block[b], packed + (size_t)b * bytes);
+    struct error *error = ranks_agree(cells->ranks, pack_all(cells, send, sends, &passing));
     if (!error)
-        error = exchange_once(cells->ranks, send, sends, packed, bytes, &came, &count);
-    free(packed);
+        error = exchange_once(cells->ranks, passing.away, passing.goes, passing.packed,
+                              bytes_that_go(cells), &came, &count);
+    free(passing.away);
+    free(passing.packed);
     if (!error)
-        error = ranks_agree(cells->ranks, take_in(cells, came, count, copies));
+        error = ranks_agree(cells->ranks,
+                            take_in(cells, passing.stays, passing.count, came, count, copies));
+    free(passing.stays);
     free(came);
     return error;
 }
