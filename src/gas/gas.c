@@ -274,28 +274,33 @@ struct error *gas_plan(struct gas *gas, struct simulation *simulation)
     TRY(ranks_agree(simulation->ranks, error));
     TRY(cell_halo_plan(&gas->halo, cells));
     TRY(cell_copies_plan(&gas->copies, cells, gas->layout.written));
-    return gas_plan_seams(gas);
+    TRY(gas_plan_seams(gas));
+    return ranks_agree(simulation->ranks, gas_plan_strips(gas, simulation->threads));
 }
 
 static struct error *gas_start(void *solver, struct simulation *simulation)
 {
     struct gas *gas = solver;
     gas->cells->threads = simulation->threads;
+    if (gas->cells->levels > 1 || simulation->ranks->size > 1)
+        memory_keep_freed();
     TRY(gas_plan(gas, simulation));
     TRY(gas_burn(gas, simulation, simulation->time));
     return gas_derive(gas, simulation, NULL);
 }
 
-/* Blocks go to other ranks where the case has space divided anew, or one has worked longer. */
+/* Blocks go to other ranks where the case has space divided anew, or one has worked longer, by more
+ * than that takes. */
 static struct error *balance(struct gas *gas, struct simulation *simulation)
 {
-    enum { STEPS = 50 };
+    enum { STEPS = 10 }; /* between comparisons of work */
     const int64_t every = simulation->problem->input->run.rebalance;
     const int64_t step = simulation->step;
     if (simulation->ranks->size < 2 || step == 0 || step % (every > 0 ? every : STEPS) != 0)
         return NULL;
     struct cell_blocks *cells = gas->cells;
     const uint64_t order = cells->order;
+    const double began = clock_seconds();
     int64_t *work = memory_allocate(((size_t)cells->blocks + 1) * sizeof *work);
     TRY(ranks_agree(simulation->ranks, work ? NULL : out_of_memory_for("blocks of cells")));
     for (int32_t b = 0; b < cells->blocks; b++) {
@@ -309,7 +314,9 @@ static struct error *balance(struct gas *gas, struct simulation *simulation)
         return NULL;
     gas->room = 0; /* all of them may have moved */
     TRY(gas_plan(gas, simulation));
-    return ranks_agree(simulation->ranks, gas_derive(gas, simulation, NULL));
+    TRY(ranks_agree(simulation->ranks, gas_derive(gas, simulation, NULL)));
+    simulation->partition.cost = ranks_maximum(simulation->ranks, clock_seconds() - began);
+    return NULL;
 }
 
 /* The part of the step that the first steps of two materials take: products that begin to expand

@@ -82,9 +82,8 @@ struct gas {
     double start_reach; /* it reaches, m: they are to be fine; 0: there is none */
     struct cell_halo halo;
     struct cell_copies copies;
-    uint64_t order; /* of the blocks when the strips were made */
-    int32_t room;   /* cells, with copies, for which `other` has room */
-    int lasting;    /* regions of fine cells that stay when all explosives have burnt */
+    int32_t room; /* cells, with copies, for which `other` has room */
+    int lasting;  /* regions of fine cells that stay when all explosives have burnt */
     struct gas_block *block;
     int64_t block_capacity;
     bool *shocked;             /* of each block, found by a sweep */
@@ -193,6 +192,7 @@ void gas_bind(struct gas *gas, const struct cell_blocks *cells);
 
 /* Arrays, pointers, halo and strips for the blocks as they are. Collective. */
 struct error *gas_plan(struct gas *gas, struct simulation *simulation);
+struct error *gas_plan_strips(struct gas *gas, int threads);
 void gas_free_strips(struct gas *gas);
 
 /* Collective: a sweep along AXIS over DT. */

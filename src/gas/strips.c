@@ -11,7 +11,7 @@
 #include "gas/gas_internal.h"
 
 /* How much longer than to find that a block sleeps it takes to sweep it, about, in 3-D. */
-enum { SWEEP_WORK = 5 };
+enum { SWEEP_WORK = 20 };
 
 const char gas_repetition[] = "repetition of sweeps that would empty a cell";
 
@@ -131,14 +131,11 @@ static struct error *reserve_passed(struct gas *gas)
     return gas->kept_passed ? NULL : out_of_memory_for("strips of cells");
 }
 
-static struct error *plan_strips(struct gas *gas, const struct cell_blocks *cells, int threads)
+struct error *gas_plan_strips(struct gas *gas, int threads)
 {
+    const struct cell_blocks *cells = gas->cells;
     TRY(reserve_through(gas, threads));
-    if (!gas->kept_passed)
-        TRY(reserve_passed(gas));
-    if (gas->order == cells->order)
-        return NULL;
-    gas->order = cells->order;
+    TRY(reserve_passed(gas));
     for (int axis = 0; axis < cells->dimension; axis++) {
         struct gas_strips *strips = &gas->strips[axis];
         free_strips(strips);
@@ -322,11 +319,13 @@ static void choose_strips(struct gas *gas, const struct simulation *simulation, 
         }
 }
 
-/* The strips FIRST .. END - 1 of a SWEEP. Whether some cell is left with hardly anything. */
-static bool sweep_strips(const struct gas *gas, struct simulation *simulation,
-                         const struct gas_sweep *sweep, int32_t first, int32_t end)
+/* The strips of a SWEEP, those that are early, while planes are under way, or the others. Whether
+ * some cell is left with hardly anything. */
+static bool sweep_strips(struct gas *gas, struct simulation *simulation,
+                         const struct gas_sweep *sweep, bool early)
 {
     const struct gas_strips *strips = &gas->strips[sweep->axis];
+    const int32_t first = early ? 0 : strips->early, end = early ? strips->early : strips->count;
     bool spent = false;
 #pragma omp parallel num_threads(simulation->threads) reduction(|| : spent)
     {
@@ -340,6 +339,8 @@ static bool sweep_strips(const struct gas *gas, struct simulation *simulation,
             spent = spent || of->spent;
             gas_keep_fluxes(gas, sweep->axis, &strips->strip[s], of);
             gas_book(gas, simulation, &strips->strip[s], of, sweep->axis, sweep->dt, &own);
+            if (early && omp_get_thread_num() == 0)
+                cell_halo_advance(&gas->halo, sweep->axis);
         }
 #pragma omp critical(bolide_gas_sweep)
         ledger_join(&simulation->ledger, &own);
@@ -409,27 +410,29 @@ static struct error *sweep_once(struct gas *gas, struct simulation *simulation, 
         sweep.closure.lit = NULL;
     memcpy(sweep.from, gas->u, sizeof sweep.from);
     memcpy(sweep.to, gas->other, sizeof sweep.to);
-    const struct gas_strips *strips = &gas->strips[axis];
     choose_strips(gas, simulation, axis, false);
     gas_forget_fluxes(gas, axis);
     cell_halo_start(&gas->halo, cells, axis, sweep.from);
     cell_copies_start(&gas->copies, cells, sweep.from);
-    bool own = sweep_strips(gas, simulation, &sweep, 0, strips->early);
+    bool own = sweep_strips(gas, simulation, &sweep, true);
     simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
     cell_halo_finish(&gas->halo, axis);
     cell_copies_finish(&gas->copies, cells, gas->u);
+    simulation_end_waiting(simulation);
     gas_fill_seams(gas, axis, simulation->threads);
     struct error *error = gas_fill_planes(gas, simulation, axis, begin + 0.5 * dt);
-    TRY(ranks_agree(simulation->ranks, error));
-    simulation_end_waiting(simulation);
-    choose_strips(gas, simulation, axis, true);
-    own |= sweep_strips(gas, simulation, &sweep, strips->early, strips->count);
+    if (!error) {
+        choose_strips(gas, simulation, axis, true);
+        own |= sweep_strips(gas, simulation, &sweep, false);
+    }
     gas_pass_fluxes(gas, axis);
     own |= gas_match_seams(gas, axis, dt, simulation->threads);
     simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
-    *spent = ranks_maximum(simulation->ranks, own) > 0.0;
+    double any = own;
+    error = ranks_agree_on(simulation->ranks, error, &any, 1);
+    *spent = any > 0.0;
     simulation_end_waiting(simulation);
-    return NULL;
+    return error;
 }
 
 /* Says so the first time in a run. */
@@ -459,9 +462,5 @@ static struct error *sweep_parts(struct gas *gas, struct simulation *simulation,
 struct error *gas_sweep(struct gas *gas, struct simulation *simulation, int axis, double dt)
 {
     enum { HALVINGS = 5 };
-    struct error *error = plan_strips(gas, gas->cells, simulation->threads);
-    simulation_end_phase(simulation, PHASE_BLOCKS, "sweeps");
-    TRY(ranks_agree(simulation->ranks, error));
-    simulation_end_waiting(simulation);
     return sweep_parts(gas, simulation, axis, simulation->time, dt, HALVINGS);
 }

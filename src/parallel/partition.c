@@ -84,7 +84,7 @@ bool partition_is_uneven(const struct partition *partition)
     exact_sum_add(&sum, partition->work);
     ranks_sum_exact(partition->ranks, &sum, 1);
     mean = exact_sum_value(&sum) / partition->ranks->size;
-    return mean > 0.01 && most > imbalance_limit * mean;
+    return mean > 0.01 && most > imbalance_limit * mean && most - mean > partition->cost;
 }
 
 struct error *partition_divide(struct partition *partition, struct block_weight *own, int32_t count,

@@ -12,6 +12,7 @@ struct partition {
     const struct ranks *ranks;
     uint64_t *cut; /* rank r owns the blocks of keys cut[r] .. cut[r + 1] - 1 */
     double work;   /* seconds that this rank has computed for its blocks since the cut */
+    double cost;   /* seconds that a new cut costs, the same on all ranks; 0: hardly any */
 };
 
 /* How much work a block is, in any unit: particles, cells that were computed. */
@@ -26,7 +27,7 @@ void partition_free(struct partition *partition);
 int partition_owner(const struct partition *partition, uint64_t key);
 
 /* Collective: whether to divide the blocks, for the first time or because the ranks' work since
- * the cut differs by too much. */
+ * the cut differs by too much, and they have lost more by that than a new cut costs. */
 bool partition_is_uneven(const struct partition *partition);
 
 /* Collective: divides the blocks of all ranks. OWN are the COUNT blocks that this rank holds
