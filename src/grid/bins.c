@@ -238,16 +238,9 @@ static void fill_bin(struct bins *bins, const struct binned *p, int32_t b)
         order_by_id(list + bin->cell[c], bin->cell[c + 1] - bin->cell[c], p->id);
 }
 
-struct error *bins_make(struct bins *bins, const struct binned *p, int threads)
+/* Finds the cells of the particles of the storage blocks with a flag in AGAIN; NULL: of all. */
+static void find_cells_of(struct bins *bins, const struct binned *p, const bool *again, int threads)
 {
-    if (!memory_reserve((void **)&bins->list, &bins->list_capacity, p->count, 0,
-                        sizeof *bins->list) ||
-        !memory_reserve((void **)&bins->cell, &bins->cell_capacity, p->count, 0, 1) ||
-        !memory_reserve((void **)&bins->home, &bins->home_capacity, p->count, bins->home_capacity,
-                        1) ||
-        !memory_reserve((void **)&bins->candidate, &bins->candidate_capacity,
-                        (int64_t)p->blocks * p->groups, 0, sizeof *bins->candidate))
-        return no_room(p);
     struct cell_loop loop = {p->dimension, p->edge, p->shift, p->position, {0.0}, {0.0}};
     for (int axis = 0; axis < 3; axis++) {
         loop.low[axis] = (double)p->low[axis];
@@ -255,9 +248,53 @@ struct error *bins_make(struct bins *bins, const struct binned *p, int threads)
     }
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (int32_t b = 0; b < p->blocks; b++)
-        find_cells(bins, p, &loop, b);
+        if (!again || again[b])
+            find_cells(bins, p, &loop, b);
+}
+
+/* Room for the particles; what is known of KEPT of them stays. */
+static struct error *reserve(struct bins *bins, const struct binned *p, int32_t kept)
+{
+    return memory_reserve((void **)&bins->list, &bins->list_capacity, p->count, 0,
+                          sizeof *bins->list) &&
+                   memory_reserve((void **)&bins->cell, &bins->cell_capacity, p->count, kept, 1) &&
+                   memory_reserve((void **)&bins->home, &bins->home_capacity, p->count,
+                                  bins->home_capacity, 1) &&
+                   memory_reserve((void **)&bins->candidate, &bins->candidate_capacity,
+                                  (int64_t)p->blocks * p->groups, 0, sizeof *bins->candidate)
+               ? NULL
+               : no_room(p);
+}
+
+struct error *bins_find(struct bins *bins, const struct binned *p, int threads)
+{
+    TRY(reserve(bins, p, 0));
+    find_cells_of(bins, p, NULL, threads);
     bins->moved = count_moved(bins, p, threads);
-    TRY(find_strays(bins, p));
+    return find_strays(bins, p);
+}
+
+struct error *bins_find_again(struct bins *bins, const struct binned *p, const bool *again,
+                              int32_t before, int threads)
+{
+    TRY(reserve(bins, p, before < p->count ? before : p->count));
+    for (int32_t i = before; i < p->count; i++)
+        bins->home[i] = 0;
+    bins->order = p->order;
+    find_cells_of(bins, p, again, threads);
+    return find_strays(bins, p);
+}
+
+uint64_t bins_stray(const struct bins *bins, int32_t k, int32_t *index)
+{
+    *index = bins->stray[k].index;
+    return bins->candidate[bins->stray[k].candidate].key;
+}
+
+bool bins_is_stray(const struct bins *bins, int32_t i) { return bins->cell[i] == CELL_ELSEWHERE; }
+
+struct error *bins_fill(struct bins *bins, const struct binned *p, int threads)
+{
     sort_strays(bins, p->groups);
     TRY(choose_bins(bins, p));
 #pragma omp parallel for schedule(dynamic, 8) num_threads(threads)
@@ -279,16 +316,6 @@ void bins_settle(struct bins *bins, uint64_t order, int threads)
     }
     bins->moved = 0;
     bins->order = order;
-}
-
-struct error *bins_follow(struct bins *bins, uint64_t order, int32_t before, int32_t count)
-{
-    if (!memory_reserve((void **)&bins->home, &bins->home_capacity, count, bins->home_capacity, 1))
-        return out_of_memory_for("the cells of %d particles", count);
-    for (int32_t i = before; i < count; i++)
-        bins->home[i] = 0;
-    bins->order = order;
-    return NULL;
 }
 
 void bins_free(struct bins *bins)

@@ -61,14 +61,23 @@ struct bins {
     struct block_table table;
 };
 
-/* ERROR_STATE when a particle lies beyond what blocks can count. */
-struct error *bins_make(struct bins *bins, const struct binned *particles, int threads);
+/* Finds the cells of particles, and which lie in other blocks than they are stored in, the strays;
+ * fills the bins from that. ERROR_STATE when a particle lies beyond what blocks can count. */
+struct error *bins_find(struct bins *bins, const struct binned *particles, int threads);
+struct error *bins_fill(struct bins *bins, const struct binned *particles, int threads);
+
+/* Between the two: the key of the block that stray K lies in, and its *INDEX; whether particle I is
+ * one. */
+uint64_t bins_stray(const struct bins *bins, int32_t k, int32_t *index);
+bool bins_is_stray(const struct bins *bins, int32_t i);
+
 /* Tells that the particles are now stored in the order of the bins' list: bin after bin, which is
  * BINNED's order ORDER. */
 void bins_settle(struct bins *bins, uint64_t order, int threads);
-/* Tells that a few of the COUNT particles of BINNED's order ORDER are others than before, which are
- * not where they are stored, and that all from BEFORE on are new. */
-struct error *bins_follow(struct bins *bins, uint64_t order, int32_t before, int32_t count);
+/* The same as bins_find after it, where particles have become others since: those of the storage
+ * blocks with a flag in AGAIN; all from BEFORE on are new. */
+struct error *bins_find_again(struct bins *bins, const struct binned *particles, const bool *again,
+                              int32_t before, int threads);
 void bins_free(struct bins *bins);
 
 /* The cell of a block along each axis, from its number in the block. */

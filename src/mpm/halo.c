@@ -1,6 +1,7 @@
 /* Blocks of other ranks: each rank finds the sums at all nodes that its particles reach, from its
  * own patches and from those of other ranks that cover the same nodes. These come as they are, and
  * are added in the order of block keys with the others, so that all ranks find the same bits. */
+#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -332,6 +333,13 @@ void mpm_exchange_start(struct mpm *mpm, struct simulation *simulation, size_t f
         memcpy((char *)halo->exchange.buffer + (size_t)k * bytes,
                patch_of(mpm, halo->goes[k], field), bytes);
     exchange_start(&halo->exchange, NULL, bytes, halo->received);
+    halo->under_way = true;
+}
+
+void mpm_exchange_advance(struct mpm *mpm)
+{
+    if (mpm->halo.under_way && omp_get_thread_num() == 0)
+        exchange_advance(&mpm->halo.exchange);
 }
 
 void mpm_exchange_finish(struct mpm *mpm, struct simulation *simulation, size_t field)
@@ -341,6 +349,7 @@ void mpm_exchange_finish(struct mpm *mpm, struct simulation *simulation, size_t 
         return;
     const size_t bytes = patch_bytes(mpm, field);
     exchange_finish(&halo->exchange);
+    halo->under_way = false;
     simulation_end_waiting(simulation);
     for (int32_t k = 0; k < halo->exchange.comes; k++)
         memcpy(patch_of(mpm, halo->comes[k], field), (char *)halo->received + (size_t)k * bytes,

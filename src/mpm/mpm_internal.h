@@ -67,6 +67,7 @@ struct halo {
     struct exchange exchange;
     double *received;
     int64_t received_capacity;
+    bool under_way; /* patches, between ranks */
 };
 
 struct mpm {
@@ -169,9 +170,10 @@ BOLIDE_INLINE bool mpm_is_near(const struct mpm *mpm, const struct layer *layer,
 struct error *mpm_find_halo(struct mpm *mpm, const struct simulation *simulation,
                             struct error *error);
 /* Room to exchange patches. Collective: brings the patches of a field; between start and finish a
- * rank works on bins that are not near. */
+ * rank works on bins that are not near, and each of its threads calls advance after each. */
 struct error *mpm_reserve_halo(struct mpm *mpm);
 void mpm_exchange_start(struct mpm *mpm, struct simulation *simulation, size_t field);
+void mpm_exchange_advance(struct mpm *mpm);
 void mpm_exchange_finish(struct mpm *mpm, struct simulation *simulation, size_t field);
 void mpm_exchange(struct mpm *mpm, struct simulation *simulation, size_t field);
 void mpm_free_halo(struct mpm *mpm);

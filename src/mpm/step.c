@@ -60,7 +60,7 @@ struct transfer mpm_transfer_of(const struct mpm *mpm, const struct simulation *
                              .damage_gradient = fields.damage_gradient};
 }
 
-static struct error *find_bins(struct mpm *mpm, struct simulation *simulation)
+static struct binned binned_of(const struct mpm *mpm, const struct simulation *simulation)
 {
     const struct particles *p = mpm->particles;
     struct binned binned = {.dimension = simulation->problem->dimension,
@@ -80,7 +80,19 @@ static struct error *find_bins(struct mpm *mpm, struct simulation *simulation)
         binned.high[axis] =
             mpm->has_plane[axis][1] ? mpm->plane[axis][1] - (p->shift > 0.0 ? 0 : 1) : INT64_MAX;
     }
-    return bins_make(&mpm->bins, &binned, simulation->threads);
+    return binned;
+}
+
+static struct error *find_cells(struct mpm *mpm, const struct simulation *simulation)
+{
+    const struct binned binned = binned_of(mpm, simulation);
+    return bins_find(&mpm->bins, &binned, simulation->threads);
+}
+
+static struct error *fill_bins(struct mpm *mpm, const struct simulation *simulation)
+{
+    const struct binned binned = binned_of(mpm, simulation);
+    return bins_fill(&mpm->bins, &binned, simulation->threads);
 }
 
 /* Room for the rates of the largest bin, for each thread. */
@@ -112,7 +124,8 @@ static struct error *store_by_bins(struct mpm *mpm, struct simulation *simulatio
     const struct bins *bins = &mpm->bins;
     if (mpm->layers > 1) { /* blocks have a bin for each layer */
         TRY(particles_sort(p));
-        return find_bins(mpm, simulation);
+        TRY(find_cells(mpm, simulation));
+        return fill_bins(mpm, simulation);
     }
     if (!memory_reserve((void **)&mpm->block, &mpm->block_capacity, bins->count, 0,
                         sizeof *mpm->block))
@@ -125,24 +138,77 @@ static struct error *store_by_bins(struct mpm *mpm, struct simulation *simulatio
     return NULL;
 }
 
-/* The particles that have come to blocks of other ranks. */
+/* Particle INDEX leaves for rank OWNER, if that is another one. */
+static bool note_leaving(struct mpm *mpm, int32_t index, int owner)
+{
+    if (owner == mpm->particles->ranks->rank)
+        return true;
+    if (!memory_reserve((void **)&mpm->leaving, &mpm->leaving_capacity, mpm->leaves + 1,
+                        mpm->leaves, sizeof *mpm->leaving))
+        return false;
+    mpm->leaving[mpm->leaves++] = (struct send_item){owner, index};
+    return true;
+}
+
+/* The particles that lie in blocks of other ranks: strays, and those of blocks that a coupling has
+ * given to another rank. */
 static struct error *find_leaving(struct mpm *mpm, const struct simulation *simulation)
 {
     const struct bins *bins = &mpm->bins;
+    const struct particles *p = mpm->particles;
+    const struct partition *partition = &simulation->partition;
+    bool room = true;
     mpm->leaves = 0;
-    for (int32_t b = 0; b < bins->count; b++) {
-        const struct bin *bin = &bins->bin[b];
-        const int owner = partition_owner(&simulation->partition, bin->key);
-        const int32_t count = bin->cell[BLOCK_CELLS];
-        if (owner == simulation->ranks->rank)
-            continue;
-        if (!memory_reserve((void **)&mpm->leaving, &mpm->leaving_capacity, mpm->leaves + count,
-                            mpm->leaves, sizeof *mpm->leaving))
-            return out_of_memory_for("particles that go to other ranks");
-        for (int32_t k = 0; k < count; k++)
-            mpm->leaving[mpm->leaves++] = (struct send_item){owner, bins->list[bin->first + k]};
+    for (int32_t k = 0; k < bins->strays && room; k++) {
+        int32_t index;
+        const uint64_t key = bins_stray(bins, k, &index);
+        room = note_leaving(mpm, index, partition_owner(partition, key));
     }
-    return NULL;
+    for (int32_t b = 0; b < p->blocks && room; b++) {
+        const struct block *block = &p->block[b];
+        const int owner = partition_owner(partition, block->key);
+        const bool stays = owner == simulation->ranks->rank;
+        for (int32_t k = 0; k < block->count && room && !stays; k++)
+            if (!bins_is_stray(bins, block->first + k))
+                room = note_leaving(mpm, block->first + k, owner);
+    }
+    return room ? NULL : out_of_memory_for("particles that go to other ranks");
+}
+
+/* The block that particle I is stored in; 0 where there are none. */
+static int32_t storage_block(const struct particles *p, int32_t i)
+{
+    int32_t low = 0, high = p->blocks;
+    while (high - low > 1) {
+        const int32_t middle = (low + high) / 2;
+        *(p->block[middle].first <= i ? &low : &high) = middle;
+    }
+    return low;
+}
+
+/* The particles that leave go, others come in their places and behind all others: the blocks of
+ * these are searched again. */
+static struct error *hand_over(struct mpm *mpm, const struct simulation *simulation)
+{
+    struct particles *p = mpm->particles;
+    const int32_t before = p->count, blocks = p->blocks;
+    bool *again = memory_allocate((size_t)blocks + 1);
+    struct error *error = again ? NULL : out_of_memory_for("%d blocks", blocks);
+    for (int32_t k = 0; k < mpm->leaves && !error; k++)
+        again[storage_block(p, mpm->leaving[k].item)] = true;
+    error = ranks_agree(simulation->ranks, error);
+    if (!error)
+        error = particles_hand_over(p, mpm->leaving, mpm->leaves);
+    if (!error && p->blocks > 0)
+        again[p->blocks - 1] = true; /* it may begin or end elsewhere */
+    if (!error) {
+        const struct binned binned = binned_of(mpm, simulation);
+        error = blocks == 0
+                    ? bins_find(&mpm->bins, &binned, simulation->threads)
+                    : bins_find_again(&mpm->bins, &binned, again, before, simulation->threads);
+    }
+    free(again);
+    return error;
 }
 
 /* Particles into cells, on the ranks that own these. Space is divided anew where the case has it
@@ -156,21 +222,17 @@ static struct error *place_particles(struct mpm *mpm, struct simulation *simulat
                recut = several && every > 0 && simulation->step % every == 0,
                uneven = several && simulation->step % STEPS == 0 &&
                         partition_is_uneven(&simulation->partition);
-    const int32_t before = p->count;
-    struct error *error = find_bins(mpm, simulation);
+    struct error *error = find_cells(mpm, simulation);
     if (several && !error)
         error = find_leaving(mpm, simulation);
     double goes = several && !error && mpm->leaves > 0;
     TRY(ranks_agree_on(simulation->ranks, error, &goes, 1));
-    if (recut || uneven)
+    if (recut || uneven) {
         TRY(particles_distribute(p, recut));
-    else if (goes > 0.0) {
-        TRY(particles_hand_over(p, mpm->leaving, mpm->leaves));
-        error = bins_follow(&mpm->bins, p->order, before, p->count);
-        TRY(ranks_agree(simulation->ranks, error));
-    }
-    if (recut || uneven || goes > 0.0)
-        TRY(find_bins(mpm, simulation));
+        TRY(find_cells(mpm, simulation));
+    } else if (goes > 0.0)
+        TRY(hand_over(mpm, simulation));
+    TRY(fill_bins(mpm, simulation));
     return (double)mpm->bins.moved > moved_limit * p->count ? store_by_bins(mpm, simulation) : NULL;
 }
 
@@ -232,8 +294,10 @@ static void scatter(struct mpm *mpm, const struct simulation *simulation, bool n
         const struct transfer transfer = mpm_transfer_of(mpm, simulation, layer);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(simulation->threads)
         for (int32_t b = 0; b < layer->bins.count; b++)
-            if (!mpm_is_far(mpm, layer, b) && mpm_is_near(mpm, layer, b) == near)
+            if (!mpm_is_far(mpm, layer, b) && mpm_is_near(mpm, layer, b) == near) {
                 transfer_scatter(&transfer, b);
+                mpm_exchange_advance(mpm);
+            }
     }
 }
 
@@ -320,6 +384,7 @@ static void gather_velocities(struct mpm *mpm, const struct simulation *simulati
             grid_spread(&layer->grid, &layer->main, b);
             if (!layer->prescribed)
                 transfer_velocity(&transfer, b, step, scatter);
+            mpm_exchange_advance(mpm);
         }
     }
 }

@@ -30,8 +30,8 @@ struct error *exchange_reserve(struct exchange *exchange, size_t bytes);
 
 /* Sends the planned ones of ITEMS, BYTES each, for which there must be room (NULL: the caller has
  * put them into the buffer, in the order of the items to send), and takes what comes to RECEIVED,
- * which holds it once exchange_finish returns. ITEMS may change before. Who computes meanwhile calls
- * exchange_advance from time to time, see ranks_advance. */
+ * which holds it once exchange_finish returns. ITEMS may change before. Who computes meanwhile
+ * calls exchange_advance from time to time, see ranks_advance. */
 void exchange_start(struct exchange *exchange, const void *items, size_t bytes, void *received);
 void exchange_advance(struct exchange *exchange);
 void exchange_finish(struct exchange *exchange);

@@ -64,7 +64,8 @@ static struct cloud *make_cloud(int dimension, enum grid_shape shape, bool affin
                                 .groups = 1,
                                 .low = {INT64_MIN, INT64_MIN, INT64_MIN},
                                 .high = {INT64_MAX, INT64_MAX, INT64_MAX}};
-    assert_success(bins_make(&c->bins, &c->binned, 2));
+    assert_success(bins_find(&c->bins, &c->binned, 2));
+    assert_success(bins_fill(&c->bins, &c->binned, 2));
     grid_start(&c->grid, dimension, shape_window_of(shape, false));
     c->main.stride = NODE_STRIDE;
     c->back.stride = BACK_STRIDE;
