@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/checksum.h"
 #include "base/memory.h"
 
 static const char part[] = ".part";
@@ -223,7 +224,7 @@ static bool ends_with(const char *name, size_t length, const char *ending)
     return length > size && !memcmp(name + length - size, ending, size);
 }
 
-struct error *file_hash(const char *path, uint64_t *hash)
+struct error *file_hash(const char *path, int number, int parts, uint64_t *hash)
 {
     *hash = 0;
     if (!file_is_plain(path))
@@ -231,18 +232,23 @@ struct error *file_hash(const char *path, uint64_t *hash)
     FILE *file = fopen(path, "re");
     if (!file)
         return file_error(path, errno);
-    uint64_t words[1 << 12], sum = 0xcbf29ce484222325u; /* FNV-1a, eight bytes at a time */
-    for (size_t got; (got = fread(words, 1, sizeof words, file)) > 0;) {
-        memset((char *)words + got, 0, -got % sizeof *words);
-        for (size_t i = 0; i < (got + sizeof *words - 1) / sizeof *words; i++) {
-            sum = (sum ^ words[i]) * 0x100000001b3u;
-            sum ^= sum >> 32;
-        }
-        sum += got;
+    uint64_t words[1 << 12];
+    const int64_t size = file_size(path), all = size / (int64_t)sizeof *words + 1,
+                  end = all * (number + 1) / parts, room = COUNT_OF(words);
+    int64_t at = all * number / parts;
+    bool failed = fseeko(file, (off_t)(at * (int64_t)sizeof *words), SEEK_SET) != 0;
+    while (at < end && !failed) {
+        const int64_t some = end - at < room ? end - at : room;
+        memset(words, 0, sizeof words);
+        fread(words, 1, (size_t)some * sizeof *words, file);
+        failed = ferror(file);
+        *hash += checksum_of(words, sizeof *words, at, some, 1);
+        at += some;
     }
-    struct error *error = ferror(file) ? file_error(path, EIO) : NULL;
+    if (number == 0)
+        *hash += checksum_of(&size, sizeof size, all, 1, 1);
+    struct error *error = failed ? file_error(path, EIO) : NULL;
     fclose(file);
-    *hash = sum ? sum : 1;
     return error;
 }
 

@@ -48,8 +48,9 @@ struct error *file_read(const char *path, char **content, size_t *size);
  * text). */
 const char *file_read_input(const char *path, size_t most, char **content, size_t *size);
 
-/* *HASH is a number for the bytes of the plain file PATH, never 0; 0 when there is none. */
-struct error *file_hash(const char *path, uint64_t *hash);
+/* The hash of the plain file PATH is the sum of PARTS numbers, that are computed apart: *HASH
+ * is NUMBER of them, from 0 on, or 0 when there is no such file. */
+struct error *file_hash(const char *path, int number, int parts, uint64_t *hash);
 
 /* Bytes of the plain file PATH, 0 when there is none. */
 int64_t file_size(const char *path);

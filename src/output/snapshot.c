@@ -9,42 +9,38 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "output/hdf5_file.h"
 #include "output/mesh.h"
-#include "output/rows.h"
+#include "output/shared_file.h"
 
 enum { VTK_VERTEX = 1, VTK_LINE = 3, VTK_PIXEL = 8, VTK_VOXEL = 11 };
 
-/* A snapshot in the making: rank 0 writes, the others hand their rows over. The first error stays,
- * and lets nobody wait. */
+/* A snapshot in the making: all datasets are gone through twice, to lay them out and to write the
+ * rows of this rank. */
 struct writing {
     const struct simulation *simulation;
     const struct population *population;
-    bool here;
-    hid_t group; /* that datasets go to */
-    struct error *error;
+    struct shared_file file;
+    bool laying;               /* out; later writing */
+    hid_t group;               /* of the layout, that datasets go to; rank 0 has it */
+    int64_t next;              /* dataset to write */
+    struct part once, members; /* rows of what all ranks know, which rank 0 writes; of members */
+    char *piece;               /* some rows */
+    int64_t room;              /* for bytes of them */
 };
 
-enum { ALONE = -1 };
+enum { ROWS_AT_ONCE = 1 << 18 };
 
 /* A dataset to write: rows of numbers of TYPE, found by FILL, which puts the rows begin .. end - 1
- * into OUT. */
+ * of this rank into OUT; while it works a number may need 8 bytes. */
 struct dataset {
     const char *name;
     hid_t type;
-    int64_t rows;   /* of all ranks */
-    int64_t own;    /* of them, of this rank; ALONE: rank 0 knows all */
+    struct part rows;
     int components; /* 1: a plain list of numbers */
     int each;       /* rows of the dataset that a row found by FILL makes */
     void (*fill)(const void *context, int64_t begin, int64_t end, void *out);
     const void *context;
     const char *unit; /* NULL or empty: none */
-};
-
-/* Where rows go. */
-struct sink {
-    hid_t dataset, space;
-    const struct dataset *set;
 };
 
 /* Whether OBJECT got the attribute NAME with TEXT. */
@@ -61,62 +57,46 @@ static bool put_text(hid_t object, const char *name, const char *text)
     return done;
 }
 
-/* HDF5 forgets why a call failed at the next one: an error is made before anything is closed. */
-static struct error *put_rows(void *context, int64_t at, int64_t count, const void *rows)
+static void lay_out(struct writing *w, const struct dataset *set)
 {
-    const struct sink *sink = context;
-    const struct dataset *set = sink->set;
-    if (sink->dataset < 0)
-        return hdf5_error(ERROR_SYSTEM, "\"%s\" cannot be written", set->name);
-    const hsize_t each = (hsize_t)set->each;
-    hsize_t start[2] = {(hsize_t)at * each, 0};
-    hsize_t part[2] = {(hsize_t)count * each, (hsize_t)set->components};
-    hid_t memory = H5Screate_simple(set->components > 1 ? 2 : 1, part, NULL);
-    struct error *error = NULL;
-    if (memory < 0 ||
-        H5Sselect_hyperslab(sink->space, H5S_SELECT_SET, start, NULL, part, NULL) < 0 ||
-        H5Dwrite(sink->dataset, set->type, memory, sink->space, H5P_DEFAULT, rows) < 0)
-        error = hdf5_error(ERROR_SYSTEM, "\"%s\" cannot be written", set->name);
-    H5Sclose(memory);
-    return error;
+    const hsize_t size[2] = {(hsize_t)(set->rows.total * set->each), (hsize_t)set->components};
+    hid_t dataset = shared_file_dataset(&w->file, w->group, set->name, set->type,
+                                        set->components > 1 ? 2 : 1, size);
+    if (dataset < 0)
+        return;
+    if (set->unit && *set->unit && !put_text(dataset, "unit", set->unit))
+        shared_file_fail(&w->file, hdf5_error(ERROR_SYSTEM, "\"%s\" cannot be written", set->name));
+    H5Dclose(dataset);
 }
 
-static struct sink open_sink(const struct writing *w, const struct dataset *set)
+/* How many rows from BEGIN on, of COUNT, are written at once. */
+static int64_t some_from(int64_t begin, int64_t count)
 {
-    hsize_t size[2] = {(hsize_t)(set->rows * set->each), (hsize_t)set->components};
-    struct sink sink = {H5I_INVALID_HID, H5I_INVALID_HID, set};
-    if (!w->here || w->error)
-        return sink;
-    sink.space = H5Screate_simple(set->components > 1 ? 2 : 1, size, NULL);
-    hid_t creation = hdf5_creation_list(H5P_DATASET_CREATE);
-    sink.dataset =
-        H5Dcreate2(w->group, set->name, set->type, sink.space, H5P_DEFAULT, creation, H5P_DEFAULT);
-    H5Pclose(creation);
-    if (sink.dataset >= 0 && set->unit && *set->unit &&
-        !put_text(sink.dataset, "unit", set->unit)) {
-        H5Dclose(sink.dataset);
-        sink.dataset = H5I_INVALID_HID;
+    return count - begin < ROWS_AT_ONCE ? count - begin : ROWS_AT_ONCE;
+}
+
+/* Some rows at a time, so that memory does not grow with the members. */
+static void write_rows(struct writing *w, const struct dataset *set)
+{
+    const int64_t numbers = set->components * set->each, index = w->next++,
+                  bytes = numbers * (int64_t)H5Tget_size(set->type),
+                  most = some_from(0, set->rows.own) * numbers * (int64_t)sizeof(double);
+    if (!memory_reserve((void **)&w->piece, &w->room, most, 0, 1))
+        shared_file_fail(&w->file, out_of_memory_for("an output"));
+    for (int64_t begin = 0; begin < set->rows.own && !w->file.error; begin += ROWS_AT_ONCE) {
+        const int64_t some = some_from(begin, set->rows.own);
+        set->fill(set->context, begin, begin + some, w->piece);
+        shared_file_write(&w->file, index, (set->rows.first + begin) * bytes, w->piece,
+                          some * bytes);
     }
-    return sink;
 }
 
 static void write_dataset(struct writing *w, const struct dataset *set)
 {
-    static const struct ranks alone = {0, 1, false};
-    const size_t components = (size_t)(set->components * set->each);
-    const bool distributed = set->own != ALONE;
-    const struct rows rows = {distributed ? set->own : set->rows,
-                              components * H5Tget_size(set->type), components * sizeof(double),
-                              set->fill, set->context};
-    if (!distributed && !w->here)
-        return;
-    struct sink sink = open_sink(w, set);
-    w->error =
-        rows_pass(distributed ? w->simulation->ranks : &alone, &rows, put_rows, &sink, w->error);
-    if (sink.dataset >= 0)
-        H5Dclose(sink.dataset);
-    if (sink.space >= 0)
-        H5Sclose(sink.space);
+    if (w->laying)
+        lay_out(w, set);
+    else
+        write_rows(w, set);
 }
 
 static void fill_types(const void *context, int64_t begin, int64_t end, void *out)
@@ -127,12 +107,17 @@ static void fill_types(const void *context, int64_t begin, int64_t end, void *ou
     memset(out, types[cells ? population->dimension : 0], (size_t)(end - begin));
 }
 
-/* Where the corners of each VTK cell begin in the list of them. */
+/* Where the corners of each VTK cell begin in the list of them, for cells from FIRST on. */
+struct offsets {
+    int64_t first;
+    int corners;
+};
+
 static void fill_offsets(const void *context, int64_t begin, int64_t end, void *out)
 {
-    const struct mesh *mesh = context;
+    const struct offsets *offsets = context;
     for (int64_t i = begin; i < end; i++)
-        ((int64_t *)out)[i - begin] = i * mesh->corners;
+        ((int64_t *)out)[i - begin] = (offsets->first + i) * offsets->corners;
 }
 
 static void fill_ids(const void *context, int64_t begin, int64_t end, void *out)
@@ -178,10 +163,10 @@ static void fill_source(const void *context, int64_t begin, int64_t end, void *o
     }
 }
 
-static void write_column(struct writing *w, const struct column *column, int64_t count)
+static void write_column(struct writing *w, const struct column *column)
 {
     const struct source source = {w->population, column};
-    write_dataset(w, &(struct dataset){column->name, H5T_NATIVE_FLOAT, count, w->population->count,
+    write_dataset(w, &(struct dataset){column->name, H5T_NATIVE_FLOAT, w->members,
                                        column->components, 1, fill_source, &source, column->unit});
 }
 
@@ -189,7 +174,7 @@ static void write_column(struct writing *w, const struct column *column, int64_t
  * reads no others. */
 static void write_names(struct writing *w, const char *dataset, const struct named_map *names)
 {
-    if (!w->here || w->error || names->count == 0)
+    if (!w->laying || w->group < 0 || names->count == 0)
         return;
     hid_t type = H5Tcopy(H5T_C_S1), creation = hdf5_creation_list(H5P_DATASET_CREATE);
     hid_t transfer = H5Pcreate(H5P_DATASET_XFER);
@@ -198,7 +183,7 @@ static void write_names(struct writing *w, const char *dataset, const struct nam
     hid_t space = H5Screate_simple(1, (const hsize_t[]){(hsize_t)names->count}, NULL);
     hid_t set = H5Dcreate2(w->group, dataset, type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
     if (set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, transfer, names->names) < 0)
-        w->error = hdf5_error(ERROR_SYSTEM, "\"%s\" cannot be written", dataset);
+        shared_file_fail(&w->file, hdf5_error(ERROR_SYSTEM, "\"%s\" cannot be written", dataset));
     if (set >= 0)
         H5Dclose(set);
     H5Sclose(space);
@@ -207,19 +192,25 @@ static void write_names(struct writing *w, const char *dataset, const struct nam
     H5Tclose(type);
 }
 
-static void write_geometry(struct writing *w, const struct mesh *mesh, int64_t count)
+static void write_geometry(struct writing *w, const struct mesh *mesh)
 {
     const struct population *p = w->population;
-    const int64_t ids = count * mesh->corners;
+    const struct ranks *ranks = w->simulation->ranks;
+    const int64_t ids = w->members.total * mesh->corners;
+    const struct part points = {mesh->before, mesh->own, mesh->total};
+    const struct offsets offsets = {w->members.first, mesh->corners};
+    struct part ends = w->members; /* one more than cells */
+    ends.own += ranks->rank == ranks->size - 1;
+    ends.total++;
     const struct dataset sets[] = {
-        {"NumberOfPoints", H5T_NATIVE_INT64, 1, ALONE, 1, 1, fill_one, &mesh->total, NULL},
-        {"NumberOfCells", H5T_NATIVE_INT64, 1, ALONE, 1, 1, fill_one, &count, NULL},
-        {"NumberOfConnectivityIds", H5T_NATIVE_INT64, 1, ALONE, 1, 1, fill_one, &ids, NULL},
-        {"Points", H5T_NATIVE_DOUBLE, mesh->total, mesh->own, 3, 1, mesh_fill_points, mesh, NULL},
-        {"Connectivity", H5T_NATIVE_INT64, count, p->count, 1, mesh->corners, mesh_fill_corners,
-         mesh, NULL},
-        {"Offsets", H5T_NATIVE_INT64, count + 1, ALONE, 1, 1, fill_offsets, mesh, NULL},
-        {"Types", H5T_NATIVE_UINT8, count, ALONE, 1, 1, fill_types, p, NULL},
+        {"NumberOfPoints", H5T_NATIVE_INT64, w->once, 1, 1, fill_one, &mesh->total, NULL},
+        {"NumberOfCells", H5T_NATIVE_INT64, w->once, 1, 1, fill_one, &w->members.total, NULL},
+        {"NumberOfConnectivityIds", H5T_NATIVE_INT64, w->once, 1, 1, fill_one, &ids, NULL},
+        {"Points", H5T_NATIVE_DOUBLE, points, 3, 1, mesh_fill_points, mesh, NULL},
+        {"Connectivity", H5T_NATIVE_INT64, w->members, 1, mesh->corners, mesh_fill_corners, mesh,
+         NULL},
+        {"Offsets", H5T_NATIVE_INT64, ends, 1, 1, fill_offsets, &offsets, NULL},
+        {"Types", H5T_NATIVE_UINT8, w->members, 1, 1, fill_types, p, NULL},
     };
     for (size_t i = 0; i < COUNT_OF(sets); i++)
         write_dataset(w, &sets[i]);
@@ -242,29 +233,29 @@ bool snapshot_has(const struct population *population, const char *column)
            (strcmp(column, "stress") != 0 && strcmp(column, "equivalent_stress") != 0);
 }
 
-static void write_fields(struct writing *w, int64_t count)
+static void write_fields(struct writing *w)
 {
     const struct population *p = w->population;
     const struct dataset sets[] = {
-        {"id", H5T_NATIVE_INT64, count, p->count, 1, 1, fill_ids, p, NULL},
-        {"material", H5T_NATIVE_UINT16, count, p->count, 1, 1, fill_numbers, p->material, NULL},
-        {"body", H5T_NATIVE_UINT16, count, p->count, 1, 1, fill_numbers, p->body, NULL},
+        {"id", H5T_NATIVE_INT64, w->members, 1, 1, fill_ids, p, NULL},
+        {"material", H5T_NATIVE_UINT16, w->members, 1, 1, fill_numbers, p->material, NULL},
+        {"body", H5T_NATIVE_UINT16, w->members, 1, 1, fill_numbers, p->body, NULL},
     };
     for (size_t i = 0; i < COUNT_OF(sets); i++)
         write_dataset(w, &sets[i]);
     if (p->kind == POPULATION_OF_CELLS)
-        write_dataset(w, &(struct dataset){ghost_name, H5T_NATIVE_UINT8, count, p->count, 1, 1,
+        write_dataset(w, &(struct dataset){ghost_name, H5T_NATIVE_UINT8, w->members, 1, 1,
                                            fill_ghosts, p, NULL});
     for (int i = 0; i < p->columns; i++)
         if (strcmp(p->column[i].name, "position") != 0 && snapshot_has(p, p->column[i].name))
-            write_column(w, &p->column[i], count);
+            write_column(w, &p->column[i]);
 }
 
 static void write_moment(struct writing *w)
 {
     const struct dataset sets[] = {
-        {"time", H5T_NATIVE_DOUBLE, 1, ALONE, 1, 1, fill_one, &w->simulation->time, "s"},
-        {"step", H5T_NATIVE_INT64, 1, ALONE, 1, 1, fill_one, &w->simulation->step, NULL},
+        {"time", H5T_NATIVE_DOUBLE, w->once, 1, 1, fill_one, &w->simulation->time, "s"},
+        {"step", H5T_NATIVE_INT64, w->once, 1, 1, fill_one, &w->simulation->step, NULL},
     };
     const struct simulation_case *input = w->simulation->problem->input;
     for (size_t i = 0; i < COUNT_OF(sets); i++)
@@ -288,26 +279,36 @@ static bool mark_as_vtk(hid_t root)
     return done && put_text(root, "Type", "UnstructuredGrid");
 }
 
-static void write_all(struct writing *w, const struct mesh *mesh, hid_t file)
+enum { ROOT, POINTS, CELLS, FIELDS, GROUPS };
+
+/* The groups of the file, where this rank lays it out. */
+static void make_groups(struct writing *w, hid_t group[GROUPS])
 {
-    enum { ROOT, POINTS, CELLS, FIELDS, GROUPS };
     static const char *const names[GROUPS] = {"/VTKHDF", "/VTKHDF/PointData", "/VTKHDF/CellData",
                                               "/VTKHDF/FieldData"};
-    int64_t count = ranks_sum(w->simulation->ranks, w->population->count);
-    hid_t group[GROUPS] = {H5I_INVALID_HID, H5I_INVALID_HID, H5I_INVALID_HID, H5I_INVALID_HID};
     bool made = true;
+    for (int i = 0; i < GROUPS; i++)
+        group[i] = H5I_INVALID_HID;
+    if (w->file.file < 0)
+        return;
     hid_t creation = hdf5_creation_list(H5P_GROUP_CREATE);
-    for (int i = 0; i < GROUPS && w->here && !w->error; i++) {
-        group[i] = H5Gcreate2(file, names[i], H5P_DEFAULT, creation, H5P_DEFAULT);
-        made = made && group[i] >= 0;
+    for (int i = 0; i < GROUPS && made; i++) {
+        group[i] = H5Gcreate2(w->file.file, names[i], H5P_DEFAULT, creation, H5P_DEFAULT);
+        made = group[i] >= 0;
     }
+    if (!made || !mark_as_vtk(group[ROOT]))
+        shared_file_fail(&w->file, hdf5_error(ERROR_SYSTEM, "the group VTKHDF cannot be made"));
     H5Pclose(creation);
-    if (w->here && !w->error && (!made || !mark_as_vtk(group[ROOT])))
-        w->error = hdf5_error(ERROR_SYSTEM, "the group VTKHDF cannot be made");
+}
+
+static void go_through(struct writing *w, const struct mesh *mesh)
+{
+    hid_t group[GROUPS];
+    make_groups(w, group);
     w->group = group[ROOT];
-    write_geometry(w, mesh, count);
+    write_geometry(w, mesh);
     w->group = group[w->population->kind == POPULATION_OF_CELLS ? CELLS : POINTS];
-    write_fields(w, count);
+    write_fields(w);
     w->group = group[FIELDS];
     write_moment(w);
     for (int i = 0; i < GROUPS; i++)
@@ -316,23 +317,29 @@ static void write_all(struct writing *w, const struct mesh *mesh, hid_t file)
 }
 
 struct error *snapshot_write(const char *path, const struct simulation *simulation,
-                             const struct population *population)
+                             const struct population *population, uint64_t *hash)
 {
     struct mesh mesh;
-    TRY(mesh_make(simulation->ranks, population, &mesh));
+    const struct ranks *ranks = simulation->ranks;
+    TRY(mesh_make(ranks, population, &mesh));
     struct hdf5_printing printing = hdf5_quiet();
-    hid_t file = H5I_INVALID_HID;
-    struct writing writing = {
-        .simulation = simulation, .population = population, .here = simulation->ranks->rank == 0};
-    if (writing.here)
-        writing.error = hdf5_create(path, false, &file);
-    const bool created = writing.here && !writing.error;
-    write_all(&writing, &mesh, file);
-    if (created)
-        writing.error = hdf5_finish(path, file, error_context(writing.error, "%s", path));
+    struct writing writing = {.simulation = simulation,
+                              .population = population,
+                              .laying = true,
+                              .once = {0, ranks->rank == 0, 1},
+                              .members = {ranks_before(ranks, population->count), population->count,
+                                          ranks_sum(ranks, population->count)}};
+    shared_file_create(path, false, ranks, &writing.file);
+    writing.file.hashed = hash != NULL;
+    go_through(&writing, &mesh);
+    shared_file_open(&writing.file);
+    writing.laying = false;
+    go_through(&writing, &mesh);
+    struct error *error = shared_file_finish(&writing.file, hash);
     hdf5_restore(printing);
+    free(writing.piece);
     mesh_free(&mesh);
-    return ranks_agree(simulation->ranks, writing.error);
+    return error;
 }
 
 static void write_json_text(FILE *file, const char *text)

@@ -6,11 +6,12 @@
 #include "model/columns.h"
 #include "model/simulation.h"
 
-/* Collective: rank 0 writes all columns of POPULATION to PATH, by slices, so that memory does not
- * grow with the particles. Fields have their unit as the attribute `unit`. What the numbers in the
- * fields `body` and `material` stand for is in FieldData, under `bodies` and `materials`. */
+/* Collective: each rank writes all columns of its members of POPULATION to PATH, by slices, so that
+ * memory does not grow with the members. Fields have their unit as the attribute `unit`. What the
+ * numbers in the fields `body` and `material` stand for is in FieldData, under `bodies` and
+ * `materials`. HASH becomes that of the file (base/file.h), unless it is NULL. */
 struct error *snapshot_write(const char *path, const struct simulation *simulation,
-                             const struct population *population);
+                             const struct population *population, uint64_t *hash);
 
 /* Whether a snapshot of POPULATION has COLUMN: cells of gas have no stress but their pressure. */
 bool snapshot_has(const struct population *population, const char *column);

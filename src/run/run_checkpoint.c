@@ -172,7 +172,7 @@ static struct error *snapshot_of_failure(struct run *run)
         ranks_agree(&run->ranks, path ? file_check_folder(path) : out_of_memory());
     if (!error) {
         run_observe(run);
-        error = snapshot_write(path, &run->simulation, &run->population);
+        error = snapshot_write(path, &run->simulation, &run->population, NULL);
     }
     free(path);
     return error;

@@ -233,35 +233,37 @@ static struct error *write_series(struct run *run)
     return error;
 }
 
-/* Whether the snapshot NAME is not what the run wrote, whose hash is WRITTEN. */
-static struct error *has_changed(const struct run *run, const char *name, uint64_t written,
-                                 bool *changed)
+/* Of each snapshot this rank's part of its hash; 0: it is not there. */
+static struct error *hash_snapshots(const struct run *run, uint64_t *hash)
 {
-    char *path = run_path(run, name);
-    uint64_t hash;
-    struct error *error = path ? file_hash(path, &hash) : out_of_memory();
-    *changed = !error && written && hash != written;
-    free(path);
+    struct error *error = NULL;
+    for (int64_t i = 0; i < run->snapshots && !error; i++) {
+        bool there;
+        char *name = snapshot_name(run, i, &there), *path = name ? run_path(run, name) : NULL;
+        error =
+            path ? file_hash(path, run->ranks.rank, run->ranks.size, &hash[i]) : out_of_memory();
+        free(path);
+        free(name);
+    }
     return error;
 }
 
-/* Tells which of the snapshots that a resumed run has written are gone, or others than it wrote. */
-static struct error *miss_snapshots(struct run *run)
+/* Rank 0 reports which of the snapshots are not there, or have another HASH than they were written
+ * with. */
+static struct error *report_missed(struct run *run, const uint64_t *hash)
 {
     int64_t gone = 0, first = 0, others = 0, first_other = 0;
     for (int64_t i = 0; i < run->snapshots; i++) {
-        bool there, changed = false;
+        const uint64_t written = run->snapshot_hashes[i];
+        bool there;
         char *name = snapshot_name(run, i, &there);
-        struct error *error = name ? NULL : out_of_memory();
-        if (name && there)
-            error = has_changed(run, name, run->snapshot_hashes[i], &changed);
+        if (!name)
+            return out_of_memory();
         free(name);
-        if (error)
-            return error;
         first = gone ? first : i;
-        gone += !there && run->snapshot_hashes[i];
+        gone += !there && written;
         first_other = others ? first_other : i;
-        others += changed;
+        others += there && written && hash[i] != written;
     }
     if (others > 0)
         run_say(run,
@@ -275,6 +277,21 @@ static struct error *miss_snapshots(struct run *run)
             "first: the series lists those that are left",
             (long long)gone, (long long)run->snapshots, (long long)first);
     return write_series(run);
+}
+
+/* Collective: reports which of the snapshots that a resumed run has written are gone, or others
+ * than it wrote. All ranks read them. */
+static struct error *miss_snapshots(struct run *run)
+{
+    uint64_t *hash = memory_allocate(((size_t)run->snapshots + 1) * sizeof *hash);
+    struct error *error =
+        ranks_agree(&run->ranks, hash ? hash_snapshots(run, hash) : out_of_memory());
+    if (!error)
+        ranks_sum_of(&run->ranks, (int64_t *)hash, (int)run->snapshots);
+    if (!error && run_writes(run))
+        error = report_missed(run, hash);
+    free(hash);
+    return ranks_agree(&run->ranks, error);
 }
 
 /* What rank 0 does before the others may read anything. */
@@ -291,8 +308,7 @@ static struct error *ready_folder(struct run *run)
     TRY(make_folder(run, "pictures"));
     TRY(run_record_changes(run));
     TRY(write_case(run));
-    TRY(open_log(run));
-    return options->resume && run->input->output.snapshots ? miss_snapshots(run) : NULL;
+    return open_log(run);
 }
 
 struct error *run_open_folder(struct run *run)
@@ -301,6 +317,8 @@ struct error *run_open_folder(struct run *run)
     if (!options->output)
         return NULL;
     TRY(ranks_agree(&run->ranks, ready_folder(run)));
+    if (options->resume && run->input->output.snapshots)
+        TRY(miss_snapshots(run));
     struct error *error = open_history(run);
     if (!error)
         error = probes_open(&run->probes, options->output, options->resume, run_writes(run));
@@ -329,7 +347,8 @@ double run_history_interval(const struct run *run)
     return isnan(given) ? 0.01 * run->input->run.until : given;
 }
 
-/* Writes POPULATION into snapshots/NUMBER and what SUFFIX adds to the name. */
+/* Writes POPULATION into snapshots/NUMBER and what SUFFIX adds to the name; HASH as
+ * snapshot_write's. */
 static struct error *write_file(struct run *run, const struct population *population,
                                 int64_t number, const char *suffix, uint64_t *hash)
 {
@@ -338,10 +357,8 @@ static struct error *write_file(struct run *run, const struct population *popula
     struct error *error =
         ranks_agree(&run->ranks, path ? file_check_folder(path) : out_of_memory());
     if (!error)
-        error = snapshot_write(path, &run->simulation, population);
+        error = snapshot_write(path, &run->simulation, population, hash);
     free(name);
-    if (!error && run_writes(run))
-        error = file_hash(path, hash);
     free(path);
     return error;
 }
@@ -354,9 +371,8 @@ static struct error *write_others(struct run *run, int64_t number)
     struct error *error = NULL;
     for (int k = 1; k < count && !error; k++) {
         char suffix[40];
-        uint64_t hash;
         snprintf(suffix, sizeof suffix, "-%s", shown[k]->name);
-        error = ranks_agree(&run->ranks, write_file(run, shown[k], number, suffix, &hash));
+        error = write_file(run, shown[k], number, suffix, NULL);
     }
     return error;
 }
@@ -377,7 +393,6 @@ static struct error *write_population(struct run *run, const struct population *
         error = write_others(run, number);
     if (!error && run_writes(run) && kept)
         error = write_series(run);
-    ranks_broadcast(&run->ranks, 0, &run->snapshot_hashes[number], sizeof(uint64_t));
     return ranks_agree(&run->ranks, error);
 }
 

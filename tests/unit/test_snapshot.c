@@ -14,6 +14,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "build_simulation.h"
 #include "output/snapshot.h"
 #include "populations.h"
@@ -47,15 +48,22 @@ static void compute_lever(const struct population *population, int64_t begin, in
         *out++ = 0.25 * (double)i;
 }
 
+/* The hash that the writer gives is that of the file. */
 static struct error *write_snapshot(const struct simulation *simulation)
 {
+    uint64_t hash = 0, found = 0;
     struct population population = simulation_population(simulation);
     struct column columns[COLUMNS_MAX];
     memcpy(columns, population.column, (size_t)population.columns * sizeof *columns);
     columns[population.columns++] =
         (struct column){"lever", "J/(kg*K)", NULL, 1, -1, compute_lever};
     population.column = columns;
-    return snapshot_write(path, simulation, &population);
+    struct error *error = snapshot_write(path, simulation, &population, &hash);
+    if (!error) {
+        assert_null(file_hash(path, 0, 1, &found));
+        assert_true(hash == found);
+    }
+    return error;
 }
 
 /* Reads the dataset NAME as doubles, ROWS x COMPONENTS of them. */

@@ -94,7 +94,7 @@ static void cells_have_their_centres_and_blocked_ones_are_left_out(void **state)
         struct gas gas;
         struct frame frame = {0};
         fill(&gas, dimension, blocked);
-        assert_null(snapshot_write(path, simulation, &gas.population));
+        assert_null(snapshot_write(path, simulation, &gas.population, NULL));
         assert_null(snapshot_read(path, fields, COUNT_OF(fields), &frame));
         const struct frame_group *group = &frame.group[0];
         assert_int_equal(frame.groups, 1);
@@ -129,7 +129,7 @@ static void particles_come_back_in_the_order_of_their_ids(void **state)
     memcpy(with, population.column, (size_t)population.columns * sizeof *with);
     with[population.columns++] = (struct column){"diameter", "m", NULL, 1, -1, compute_mass};
     population.column = with;
-    assert_null(snapshot_write(path, simulation, &population));
+    assert_null(snapshot_write(path, simulation, &population, NULL));
     assert_null(snapshot_read(path, fields, COUNT_OF(fields), &frame));
     const struct frame_group *group = &frame.group[0];
     assert_int_equal(group->cell_dimension, 0);
@@ -159,7 +159,7 @@ static void particles_without_diameters_get_those_of_their_volumes(void **state)
         for (int axis = dimension; axis < 3; axis++)
             if (population.position[i][axis] != population.position[0][axis])
                 dimension = axis + 1;
-    assert_null(snapshot_write(path, simulation, &population));
+    assert_null(snapshot_write(path, simulation, &population, NULL));
     assert_null(snapshot_read(path, fields, COUNT_OF(fields), &frame));
     const struct frame_group *group = &frame.group[0];
     for (int64_t i = 0; i < group->count; i++) {
