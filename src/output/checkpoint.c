@@ -1,31 +1,16 @@
-/* checkpoint.h5: one dataset for each array that a visitor is shown, '/' in its name makes groups;
- * see checkpoint.h. Every dataset carries HDF5's Fletcher32 checksum, and so do the file's own
- * structures, so that a damaged file is refused instead of believed. */
+/* Writing checkpoint.h5, see checkpoint.h and checkpoint_format.h: all arrays are shown twice, to
+ * lay them out and to write this rank's rows. */
 #include "output/checkpoint.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "base/file.h"
+#include "base/checksum.h"
 #include "base/memory.h"
-#include "output/hdf5_file.h"
-#include "output/rows.h"
+#include "output/checkpoint_format.h"
+#include "output/shared_file.h"
 
-enum { FORMAT = 3, CHUNK_BYTES = 1 << 20 };
-
-static const char case_name[] = "case", format_name[] = "bolide checkpoint format";
-
-/* A visitor must come first in what it stands for: visit() gets the pointer to it. */
-struct file_visitor {
-    struct visitor visitor;
-    hid_t file; /* of a saver open on rank 0 alone, of a loader on all */
-    const struct ranks *ranks;
-    struct error *error; /* the first of a saver, which lets nobody wait */
-};
-
-static hid_t number_type(enum number number)
+hid_t checkpoint_number(enum number number)
 {
     switch (number) {
     case NUMBER_DOUBLE:
@@ -40,18 +25,23 @@ static hid_t number_type(enum number number)
     return H5I_INVALID_HID;
 }
 
-/* Chunks of about a megabyte, since checksums belong to chunks; an empty dataset has none. */
-static hid_t creation_list(hid_t type, const hsize_t size[2])
+struct error *checkpoint_visit(const struct checkpoint *checkpoint, struct visitor *visitor)
 {
-    hid_t list = hdf5_creation_list(H5P_DATASET_CREATE);
-    if (size[0] == 0)
-        return list;
-    hsize_t rows = CHUNK_BYTES / (size[1] * H5Tget_size(type));
-    hsize_t chunk[2] = {rows < 1 ? 1 : rows > size[0] ? size[0] : rows, size[1]};
-    H5Pset_chunk(list, 2, chunk);
-    H5Pset_fletcher32(list);
-    return list;
+    TRY(simulation_visit(checkpoint->simulation, visitor));
+    if (checkpoint->method->state)
+        TRY(checkpoint->method->state(checkpoint->solver, visitor));
+    return checkpoint->extra ? checkpoint->extra(checkpoint->context, visitor) : NULL;
 }
+
+/* A visitor must come first in what it stands for: visit() gets the pointer to it. */
+struct saver {
+    struct visitor visitor;
+    struct shared_file file;
+    bool laying; /* out; later writing */
+    int threads;
+    int64_t next;  /* dataset to write */
+    uint64_t *sum; /* of each dataset, the checksum of what this rank has written */
+};
 
 static bool make_group(hid_t file, const char *group)
 {
@@ -75,90 +65,79 @@ static bool make_groups(hid_t file, const char *name)
     return made;
 }
 
-static struct error *write_array(hid_t file, const char *name, hid_t type, const void *data,
-                                 const hsize_t size[2])
-{
-    hid_t space = H5Screate_simple(2, size, NULL);
-    hid_t creation = creation_list(type, size);
-    bool grouped = make_groups(file, name);
-    hid_t dataset = H5Dcreate2(file, name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
-    struct error *error = NULL;
-    if (!grouped || dataset < 0 || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
-        error = hdf5_error(ERROR_SYSTEM, "%s cannot be written", name);
-    if (dataset >= 0)
-        H5Dclose(dataset);
-    H5Pclose(creation);
-    H5Sclose(space);
-    return error;
-}
-
-/* Rows of one rank after another. */
-struct sink {
-    hid_t dataset, space, type;
-    const char *name;
-    int components;
-};
-
-static struct error *put_rows(void *context, int64_t at, int64_t count, const void *rows)
-{
-    const struct sink *sink = context;
-    const hsize_t start[2] = {(hsize_t)at, 0};
-    const hsize_t part[2] = {(hsize_t)count, (hsize_t)sink->components};
-    hid_t memory = H5Screate_simple(2, part, NULL);
-    struct error *error = NULL;
-    if (sink->dataset < 0 ||
-        H5Sselect_hyperslab(sink->space, H5S_SELECT_SET, start, NULL, part, NULL) < 0 ||
-        H5Dwrite(sink->dataset, sink->type, memory, sink->space, H5P_DEFAULT, rows) < 0)
-        error = hdf5_error(ERROR_SYSTEM, "%s cannot be written", sink->name);
-    H5Sclose(memory);
-    return error;
-}
-
+/* An array to save: ROWS of COMPONENTS numbers of BYTES each, in a dataset of SIZE numbers of
+ * TYPE. */
 struct array {
-    const char *data;
+    const char *name;
+    hid_t type;
+    hsize_t size[2];
+    const void *data;
+    struct part rows;
+    int64_t components;
     size_t bytes;
 };
 
-static void fill_from_array(const void *context, int64_t begin, int64_t end, void *out)
+static bool put_number(hid_t dataset, int64_t number)
 {
-    const struct array *array = context;
-    memcpy(out, array->data + (size_t)begin * array->bytes, (size_t)(end - begin) * array->bytes);
+    hid_t space = H5Screate(H5S_SCALAR);
+    hid_t attribute =
+        H5Acreate2(dataset, CHECKPOINT_CHECKSUM, H5T_NATIVE_INT64, space, H5P_DEFAULT, H5P_DEFAULT);
+    const bool done = attribute >= 0 && H5Awrite(attribute, H5T_NATIVE_INT64, &number) >= 0;
+    H5Aclose(attribute);
+    H5Sclose(space);
+    return done;
 }
 
-/* Collective: an array whose rows are spread over the ranks. */
-static struct error *write_spread(const struct file_visitor *saver, const char *name,
-                                  enum number number, const void *data, int64_t count,
-                                  int components)
+static void lay_out(struct saver *saver, const struct array *array)
 {
-    const hsize_t size[2] = {(hsize_t)saver->visitor.total, (hsize_t)components};
-    const struct array array = {data, number_size(number) * (size_t)components};
-    const struct rows rows = {count, array.bytes, array.bytes, fill_from_array, &array};
-    struct sink sink = {H5I_INVALID_HID, H5I_INVALID_HID, number_type(number), name, components};
-    if (saver->file >= 0 && !saver->error) {
-        sink.space = H5Screate_simple(2, size, NULL);
-        hid_t creation = creation_list(sink.type, size);
-        if (make_groups(saver->file, name))
-            sink.dataset = H5Dcreate2(saver->file, name, sink.type, sink.space, H5P_DEFAULT,
-                                      creation, H5P_DEFAULT);
-        H5Pclose(creation);
-    }
-    struct error *error = rows_pass(saver->ranks, &rows, put_rows, &sink, saver->error);
-    if (sink.dataset >= 0)
-        H5Dclose(sink.dataset);
-    if (sink.space >= 0)
-        H5Sclose(sink.space);
-    return error;
+    struct shared_file *file = &saver->file;
+    const int64_t index = file->count;
+    const bool grouped = file->file < 0 || make_groups(file->file, array->name);
+    hid_t dataset = shared_file_dataset(file, file->file, array->name, array->type, 2, array->size);
+    if (dataset < 0)
+        return;
+    if (!grouped || !put_number(dataset, index))
+        shared_file_fail(file, hdf5_error(ERROR_SYSTEM, "\"%s\" cannot be written", array->name));
+    H5Dclose(dataset);
+}
+
+static void write_rows(struct saver *saver, const struct array *array)
+{
+    const int64_t index = saver->next++, row = array->components * (int64_t)array->bytes;
+    const struct part *rows = &array->rows;
+    saver->sum[index] = checksum_of(array->data, array->bytes, rows->first * array->components,
+                                    rows->own * array->components, saver->threads);
+    shared_file_write(&saver->file, index, rows->first * row, array->data, rows->own * row);
+}
+
+static void save_array(struct saver *saver, const struct array *array)
+{
+    if (saver->laying)
+        lay_out(saver, array);
+    else
+        write_rows(saver, array);
+}
+
+/* What is the same on all ranks is written by rank 0. */
+static struct part part_of(const struct visitor *visitor, const struct ranks *ranks, int64_t count)
+{
+    if (visitor->total)
+        return (struct part){visitor->first, count, visitor->total};
+    return (struct part){0, ranks->rank == 0 ? count : 0, count};
 }
 
 static struct error *save(struct visitor *visitor, const char *name, enum number number, void *data,
                           int64_t count, int components)
 {
-    struct file_visitor *saver = (struct file_visitor *)visitor;
-    const hsize_t size[2] = {(hsize_t)count, (hsize_t)components};
-    if (saver->ranks->joined && visitor->total)
-        saver->error = write_spread(saver, name, number, data, count, components);
-    else if (saver->file >= 0 && !saver->error)
-        saver->error = write_array(saver->file, name, number_type(number), data, size);
+    struct saver *saver = (struct saver *)visitor;
+    const struct part rows = part_of(visitor, saver->file.ranks, count);
+    save_array(saver, &(struct array){name,
+                                      checkpoint_number(number),
+                                      {(hsize_t)rows.total, (hsize_t)components},
+                                      data,
+                                      rows,
+                                      components,
+                                      number_size(number)});
     return NULL;
 }
 
@@ -171,177 +150,67 @@ static hid_t text_type(size_t length)
     return type;
 }
 
-static struct error *write_head(hid_t file, const char *case_text)
+static void save_head(struct saver *saver, const char *text)
 {
-    static const hsize_t one[2] = {1, 1};
-    const int64_t format = FORMAT;
-    TRY(write_array(file, format_name, H5T_NATIVE_INT64, &format, one));
-    hid_t type = text_type(strlen(case_text));
-    struct error *error = write_array(file, case_name, type, case_text, one);
+    int64_t format = CHECKPOINT_FORMAT;
+    save(&saver->visitor, CHECKPOINT_FORMAT_NAME, NUMBER_INT64, &format, 1, 1);
+    hid_t type = text_type(strlen(text));
+    const struct part rows = part_of(&saver->visitor, saver->file.ranks, 1);
+    save_array(
+        saver,
+        &(struct array){CHECKPOINT_CASE, type, {1, 1}, text, rows, (int64_t)H5Tget_size(type), 1});
     H5Tclose(type);
-    return error;
 }
 
-static struct error *visit_all(const struct checkpoint *checkpoint, struct visitor *visitor)
+/* Collective: goes through all datasets but that of the checksums. */
+static void go_through(struct saver *saver, const struct checkpoint *checkpoint)
 {
-    TRY(simulation_visit(checkpoint->simulation, visitor));
-    if (checkpoint->method->state)
-        TRY(checkpoint->method->state(checkpoint->solver, visitor));
-    return checkpoint->extra ? checkpoint->extra(checkpoint->context, visitor) : NULL;
+    save_head(saver, checkpoint->case_text);
+    shared_file_fail(&saver->file, checkpoint_visit(checkpoint, &saver->visitor));
+}
+
+static void lay_out_checksums(struct shared_file *file)
+{
+    const hsize_t size[2] = {(hsize_t)file->count, 1};
+    hid_t dataset =
+        shared_file_dataset(file, file->file, CHECKPOINT_CHECKSUMS, H5T_NATIVE_UINT64, 2, size);
+    if (dataset >= 0)
+        H5Dclose(dataset);
+}
+
+/* Collective: the checksum of a whole dataset is the sum of its parts'. */
+static void write_checksums(struct saver *saver)
+{
+    struct shared_file *file = &saver->file;
+    file->error = ranks_agree(file->ranks, file->error);
+    if (file->error)
+        return;
+    ranks_sum_of(file->ranks, (int64_t *)saver->sum, (int)saver->next);
+    if (file->ranks->rank == 0)
+        shared_file_write(file, saver->next, 0, saver->sum,
+                          saver->next * (int64_t)sizeof *saver->sum);
 }
 
 struct error *checkpoint_write(const char *path, const struct checkpoint *checkpoint)
 {
     struct hdf5_printing printing = hdf5_quiet();
-    const struct ranks *ranks = checkpoint->simulation->ranks;
-    struct file_visitor saver = {{.visit = save}, H5I_INVALID_HID, ranks, NULL};
-    if (ranks->rank == 0)
-        saver.error = hdf5_create(path, true, &saver.file);
-    if (saver.file >= 0)
-        saver.error = write_head(saver.file, checkpoint->case_text);
-    struct error *error = visit_all(checkpoint, &saver.visitor);
-    error = error_join(saver.error, error);
-    if (saver.file >= 0)
-        error = hdf5_finish(path, saver.file, error_context(error, "%s", path));
-    hdf5_restore(printing);
-    return ranks_agree(ranks, error);
-}
-
-/* Opens the dataset NAME, whose size must be SIZE. */
-static struct error *open_array(hid_t file, const char *name, const hsize_t size[2], hid_t *dataset)
-{
-    hsize_t found[2] = {0, 0};
-    TRY(hdf5_open_dataset(file, name, dataset));
-    hid_t space = H5Dget_space(*dataset);
-    int rank = space < 0 ? -1 : H5Sget_simple_extent_ndims(space);
-    if (rank == 2)
-        H5Sget_simple_extent_dims(space, found, NULL);
-    H5Sclose(space);
-    if (rank == 2 && found[0] == size[0] && found[1] == size[1])
-        return NULL;
-    H5Dclose(*dataset);
-    return error_new(ERROR_SYSTEM,
-                     "%s has %llu rows of %llu numbers where %llu rows of %llu are wanted", name,
-                     (unsigned long long)found[0], (unsigned long long)found[1],
-                     (unsigned long long)size[0], (unsigned long long)size[1]);
-}
-
-/* The COUNT rows from FIRST on. */
-static bool read_rows(hid_t dataset, hid_t type, int64_t first, int64_t count, int components,
-                      void *data)
-{
-    const hsize_t start[2] = {(hsize_t)first, 0};
-    const hsize_t part[2] = {(hsize_t)count, (hsize_t)components};
-    hid_t space = H5Dget_space(dataset), memory = H5Screate_simple(2, part, NULL);
-    bool done =
-        count == 0 || (H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, part, NULL) >= 0 &&
-                       H5Dread(dataset, type, memory, space, H5P_DEFAULT, data) >= 0);
-    H5Sclose(memory);
-    H5Sclose(space);
-    return done;
-}
-
-static struct error *load(struct visitor *visitor, const char *name, enum number number, void *data,
-                          int64_t count, int components)
-{
-    const struct file_visitor *loader = (const struct file_visitor *)visitor;
-    const int64_t rows = visitor->total ? visitor->total : count;
-    const hsize_t size[2] = {(hsize_t)rows, (hsize_t)components};
-    hid_t wanted = number_type(number), dataset;
-    TRY(open_array(loader->file, name, size, &dataset));
-    hid_t type = H5Dget_type(dataset);
-    struct error *error = NULL;
-    if (H5Tequal(type, wanted) <= 0)
-        error = error_new(ERROR_SYSTEM, "%s holds another type of number than is wanted", name);
-    else if (!read_rows(dataset, wanted, visitor->first, count, components, data))
-        error = hdf5_error(ERROR_SYSTEM, "%s is damaged", name);
-    H5Tclose(type);
-    H5Dclose(dataset);
-    return error;
-}
-
-/* The case text that is stored, in fresh memory. */
-static struct error *read_case(hid_t file, char **text)
-{
-    static const hsize_t one[2] = {1, 1};
-    hid_t dataset;
-    TRY(open_array(file, case_name, one, &dataset));
-    hid_t type = H5Dget_type(dataset);
-    size_t size = type >= 0 && H5Tget_class(type) == H5T_STRING ? H5Tget_size(type) : 0;
-    *text = memory_allocate(size + 1);
-    struct error *error = NULL;
-    if (!*text)
-        error = out_of_memory();
-    else if (!size || H5Tis_variable_str(type) ||
-             H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, *text) < 0)
-        error = hdf5_error(ERROR_SYSTEM, "its case is damaged");
-    if (error)
-        free(*text);
-    H5Tclose(type);
-    H5Dclose(dataset);
-    return error;
-}
-
-static struct error *check_format(hid_t file)
-{
-    int64_t format = 0;
-    struct file_visitor loader = {{.visit = load}, file, NULL, NULL};
-    if (H5Lexists(file, format_name, H5P_DEFAULT) == 0)
-        return error_new(ERROR_INPUT, "is no checkpoint of bolide");
-    TRY(load(&loader.visitor, format_name, NUMBER_INT64, &format, 1, 1));
-    return format == FORMAT
-               ? NULL
-               : error_new(ERROR_INPUT,
-                           "is a checkpoint of format %lld; this program reads format %d",
-                           (long long)format, FORMAT);
-}
-
-static struct error *open_to_read(const char *path, hid_t *file)
-{
-    if (access(path, R_OK))
-        return error_new(ERROR_INPUT, "cannot be read: %s", strerror(errno));
-    if (!file_is_plain(path))
-        return error_new(ERROR_INPUT, "is a folder, a pipe or a device: no checkpoint");
-    *file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (*file < 0)
-        return hdf5_error(ERROR_INPUT, "is no HDF5 file, or a damaged one");
-    return NULL;
-}
-
-struct error *checkpoint_case(const char *path, const struct ranks *ranks, char **text)
-{
-    struct hdf5_printing printing = hdf5_quiet();
-    hid_t file = H5I_INVALID_HID;
-    *text = NULL;
-    struct error *error = open_to_read(path, &file);
-    if (!error)
-        error = check_format(file);
-    if (!error)
-        error = read_case(file, text);
-    error = ranks_agree(ranks, error_context(error, "%s", path));
-    if (file >= 0)
-        H5Fclose(file);
-    hdf5_restore(printing);
-    return error;
-}
-
-struct error *checkpoint_read(const char *path, const struct checkpoint *checkpoint)
-{
-    struct hdf5_printing printing = hdf5_quiet();
-    hid_t file = H5I_INVALID_HID;
-    const struct ranks *ranks = checkpoint->simulation->ranks;
-    struct error *error = open_to_read(path, &file);
-    if (!error)
-        error = check_format(file);
-    error = ranks_agree(ranks, error_context(error, "%s", path));
-    if (!error) {
-        const int64_t most = file_size(path) / (int64_t)sizeof(double);
-        struct file_visitor loader = {{.visit = load, .most = most}, file, NULL, NULL};
-        error = visit_all(checkpoint, &loader.visitor);
-        error = ranks_agree(ranks, error_context(error, "%s", path));
+    const struct simulation *simulation = checkpoint->simulation;
+    struct saver saver = {
+        .visitor = {.visit = save}, .laying = true, .threads = simulation->threads};
+    shared_file_create(path, true, simulation->ranks, &saver.file);
+    go_through(&saver, checkpoint);
+    lay_out_checksums(&saver.file);
+    saver.laying = false;
+    saver.sum = memory_allocate((size_t)saver.file.count * sizeof *saver.sum);
+    if (!saver.sum)
+        shared_file_fail(&saver.file, out_of_memory_for("a checkpoint"));
+    shared_file_open(&saver.file);
+    if (!saver.file.error) {
+        go_through(&saver, checkpoint);
+        write_checksums(&saver);
     }
-    if (file >= 0)
-        H5Fclose(file);
+    struct error *error = shared_file_finish(&saver.file, NULL);
+    free(saver.sum);
     hdf5_restore(printing);
     return error;
 }

@@ -19,8 +19,9 @@ struct checkpoint {
  * to say whether it may be read with another (case/changes.h). */
 struct error *checkpoint_case(const char *path, const struct ranks *ranks, char **text);
 
-/* Collective. Rank 0 writes beside and renames, so that PATH is whole at every moment; every rank
- * reads its share of the particles, on as many ranks as there are. */
+/* Collective. All ranks write beside, then rank 0 renames, so that PATH is whole at every moment;
+ * every rank reads its share of the particles, on as many ranks as there are. Members have the
+ * same bytes on any number of ranks where they have the same order. */
 struct error *checkpoint_write(const char *path, const struct checkpoint *checkpoint);
 struct error *checkpoint_read(const char *path, const struct checkpoint *checkpoint);
 

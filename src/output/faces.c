@@ -9,7 +9,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "model/maps.h"
-#include "output/rows.h"
+#include "parallel/ranks.h"
 
 /* A face of an open cell, behind which a rigid body is. */
 struct face_row {
@@ -87,22 +87,6 @@ static struct error *add_faces(const struct simulation *simulation, const struct
     return NULL;
 }
 
-static void fill_rows(const void *context, int64_t begin, int64_t end, void *out)
-{
-    const struct faces *faces = context;
-    memcpy(out, faces->face + begin, (size_t)(end - begin) * sizeof *faces->face);
-}
-
-static struct error *put_rows(void *sink, int64_t at, int64_t count, const void *rows)
-{
-    struct faces *all = sink;
-    if (!memory_reserve((void **)&all->face, &all->room, at + count, all->count, sizeof *all->face))
-        return out_of_memory_for("the table of faces");
-    memcpy(all->face + at, rows, (size_t)count * sizeof *all->face);
-    all->count = at + count;
-    return NULL;
-}
-
 static int compare(const void *one, const void *other)
 {
     const struct face_row *a = one, *b = other;
@@ -162,12 +146,10 @@ struct error *faces_write(const char *path, const struct simulation *simulation,
     for (int32_t i = 0; i < source.population.count && !error; i++)
         if (population_has(&source.population, i))
             error = add_faces(simulation, &source, i, &own);
-    const struct rows rows = {.count = error ? 0 : own.count,
-                              .bytes = sizeof *own.face,
-                              .space = sizeof *own.face,
-                              .fill = fill_rows,
-                              .context = &own};
-    error = rows_pass(ranks, &rows, put_rows, &all, error);
+    error = ranks_agree(ranks, error);
+    if (!error)
+        error = ranks_gather(ranks, 0, own.face, own.count, sizeof *own.face, (void **)&all.face,
+                             &all.count);
     if (!error && ranks->rank == 0) {
         qsort(all.face, (size_t)all.count, sizeof *all.face, compare);
         error = write_table(path, simulation, &source, &all);

@@ -1,4 +1,4 @@
-/* HDF5's errors as values, and its files written beside and published whole; see hdf5_file.h. */
+/* HDF5's errors as values, its files begun and read; see hdf5_file.h. */
 #include "output/hdf5_file.h"
 
 #include <stdarg.h>
@@ -137,19 +137,5 @@ struct error *hdf5_open_dataset(hid_t file, const char *name, hid_t *dataset)
     struct error *error = check_storage(*dataset, name);
     if (error)
         H5Dclose(*dataset);
-    return error;
-}
-
-struct error *hdf5_finish(const char *path, hid_t file, struct error *error)
-{
-    if (H5Fclose(file) < 0 && !error)
-        error = hdf5_error(ERROR_SYSTEM, "%s: cannot be written", path);
-    H5Eclear2(H5E_DEFAULT);
-    if (!error)
-        return file_publish(path);
-    char *beside = file_beside(path);
-    if (beside)
-        remove(beside);
-    free(beside);
     return error;
 }

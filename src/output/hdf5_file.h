@@ -1,5 +1,5 @@
 /* What snapshots and checkpoints share of HDF5: its errors as struct error instead of printed
- * lines, and files that are written beside and published whole. */
+ * lines, and how files are begun and read. */
 #ifndef BOLIDE_HDF5_FILE_H
 #define BOLIDE_HDF5_FILE_H
 
@@ -32,9 +32,5 @@ hid_t hdf5_creation_list(hid_t kind);
  * elsewhere, or numbers that are in other files, be these pipes or another user's; ERROR_SYSTEM
  * what is not there or damaged. Close it with H5Dclose. */
 struct error *hdf5_open_dataset(hid_t file, const char *name, hid_t *dataset);
-
-/* Closes FILE and publishes PATH; after an earlier ERROR, or when closing fails, removes PATH.part
- * instead. Takes ERROR and returns what went wrong. */
-struct error *hdf5_finish(const char *path, hid_t file, struct error *error);
 
 #endif

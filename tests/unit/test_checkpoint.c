@@ -225,6 +225,71 @@ static void a_damaged_file_is_refused(void **state)
     drop_simulation(resumed.simulation);
 }
 
+/* Reads the case too, and joins what either says. */
+static struct error *read_all(struct run *run)
+{
+    char *text;
+    struct error *error = checkpoint_case(path, run->simulation->ranks, &text);
+    free(text);
+    return error_join(error, read_run(run, case_text));
+}
+
+static void a_changed_byte_of_any_array_is_named(void **state)
+{
+    (void)state;
+    struct run run = a_run(7), resumed = an_empty_run();
+    static const char *const names[][2] = {
+        {"particles/velocity", "particles/velocity is damaged"},
+        {"particles/body", "particles/body is damaged"},
+        {"run/outputs", "run/outputs is damaged"},
+        {"case", "its case is damaged"},
+        {"checksums", "is damaged"},
+    };
+    assert_null(write_run(&run));
+    for (size_t k = 0; k < COUNT_OF(names); k++) {
+        hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+        hid_t dataset = H5Dopen2(file, names[k][0], H5P_DEFAULT);
+        const long begin = (long)H5Dget_offset(dataset), size = (long)H5Dget_storage_size(dataset);
+        H5Dclose(dataset);
+        H5Fclose(file);
+        assert_true(begin > 0 && size > 0);
+        for (long at = begin + (k == 4 ? 8 : 0); at < begin + size; at++) {
+            FILE *bytes = fopen(path, "r+");
+            fseek(bytes, at, SEEK_SET);
+            const int byte = getc(bytes);
+            fseek(bytes, at, SEEK_SET);
+            putc(byte ^ 1 << at % 8, bytes);
+            fclose(bytes);
+            assert_fails(read_all(&resumed), ERROR_SYSTEM, names[k][1]);
+            bytes = fopen(path, "r+");
+            fseek(bytes, at, SEEK_SET);
+            putc(byte, bytes);
+            fclose(bytes);
+        }
+    }
+    assert_null(read_all(&resumed));
+    assert_same(&run, &resumed);
+    drop_simulation(run.simulation);
+    drop_simulation(resumed.simulation);
+}
+
+static void another_format_is_refused(void **state)
+{
+    (void)state;
+    struct run run = a_run(10);
+    assert_null(write_run(&run));
+    const int64_t older = 3;
+    hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+    hid_t format = H5Dopen2(file, "bolide checkpoint format", H5P_DEFAULT);
+    H5Dwrite(format, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &older);
+    H5Dclose(format);
+    H5Ldelete(file, "checksums", H5P_DEFAULT);
+    H5Fclose(file);
+    assert_fails(read_run(&run, case_text), ERROR_INPUT,
+                 "is a checkpoint of format 3; this program reads format 4");
+    drop_simulation(run.simulation);
+}
+
 /* The limit of a file's size stands for the disk's: the write fails alike. */
 static void a_full_disk_keeps_the_last_checkpoint(void **state)
 {
@@ -263,6 +328,8 @@ int main(void)
         IN_FOLDER(another_program_s_array_sizes_are_refused),
         IN_FOLDER(what_is_no_checkpoint_is_refused),
         IN_FOLDER(a_damaged_file_is_refused),
+        IN_FOLDER(a_changed_byte_of_any_array_is_named),
+        IN_FOLDER(another_format_is_refused),
         IN_FOLDER(a_full_disk_keeps_the_last_checkpoint),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

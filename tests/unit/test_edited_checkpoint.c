@@ -16,7 +16,9 @@
 
 #include "scratch_folder.h"
 
+#include "base/checksum.h"
 #include "base/file.h"
+#include "output/checkpoint_format.h"
 #include "run/catalogue.h"
 #include "run/run.h"
 
@@ -99,11 +101,31 @@ static herr_t note_dataset(hid_t group, const char *name, const H5L_info_t *link
     struct names *names = context;
     (void)link;
     hid_t object = H5Oopen(group, name, H5P_DEFAULT);
-    if (H5Iget_type(object) == H5I_DATASET && strcmp(name, "case") != 0) {
+    if (H5Iget_type(object) == H5I_DATASET && strcmp(name, CHECKPOINT_CASE) != 0 &&
+        strcmp(name, CHECKPOINT_CHECKSUMS) != 0) {
         assert_true(names->count < 100);
         snprintf(names->name[names->count++], 64, "%s", name);
     }
     return H5Oclose(object);
+}
+
+/* Makes the checksum of DATASET that of NUMBERS, COUNT of BYTES each. */
+static void mend_checksum(hid_t file, hid_t dataset, const char *numbers, size_t bytes,
+                          size_t count)
+{
+    int64_t row = -1;
+    hid_t attribute = H5Aopen(dataset, CHECKPOINT_CHECKSUM, H5P_DEFAULT);
+    assert_true(H5Aread(attribute, H5T_NATIVE_INT64, &row) >= 0);
+    H5Aclose(attribute);
+    hid_t sums = H5Dopen2(file, CHECKPOINT_CHECKSUMS, H5P_DEFAULT), space = H5Dget_space(sums);
+    hid_t one = H5Screate_simple(2, (const hsize_t[]){1, 1}, NULL);
+    const uint64_t sum = checksum_of(numbers, bytes, 0, (int64_t)count, 1);
+    H5Sselect_hyperslab(space, H5S_SELECT_SET, (const hsize_t[]){(hsize_t)row, 0}, NULL,
+                        (const hsize_t[]){1, 1}, NULL);
+    assert_true(H5Dwrite(sums, H5T_NATIVE_UINT64, one, space, H5P_DEFAULT, &sum) >= 0);
+    H5Sclose(one);
+    H5Sclose(space);
+    H5Dclose(sums);
 }
 
 #define EVERYWHERE SIZE_MAX
@@ -122,6 +144,7 @@ static void edit(hid_t file, const char *name, size_t where, uint64_t bits)
         if (where == EVERYWHERE || i == where % count)
             memcpy(numbers + i * bytes, &bits, bytes);
     assert_true(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers) >= 0);
+    mend_checksum(file, dataset, numbers, bytes, count);
     free(numbers);
     H5Sclose(space);
     H5Tclose(type);
