@@ -57,6 +57,56 @@ static struct drawn_point *take_points(const struct scatter *scatter, struct ran
     return point;
 }
 
+/* The points of a rank while all are brought together. */
+struct cloud {
+    struct drawn_point *point;
+    int64_t count;
+};
+
+/* Sends COUNT items of BYTES each at DATA to rank OTHER, or with COMES receives them. */
+static void pass(int other, bool comes, void *data, int64_t count, size_t bytes, void *request)
+{
+    const struct message message = {other, comes, data, count};
+    ranks_start(&message, 1, bytes, request);
+    ranks_finish(1, request);
+}
+
+/* Collective: every second rank of those that are STEP apart gives its points to the one before. */
+static struct error *join_pairs(const struct ranks *ranks, int step, struct cloud *own)
+{
+    const int place = ranks->rank % (2 * step);
+    const bool gives = place == step, takes = place == 0 && ranks->rank + step < ranks->size;
+    const int other = gives ? ranks->rank - step : ranks->rank + step;
+    int64_t more = own->count;
+    void *request = memory_allocate(ranks_request_size() + 1);
+    TRY(ranks_agree(ranks, request ? NULL : out_of_memory_for("a picture")));
+    if (gives || takes)
+        pass(other, takes, &more, 1, sizeof more, request);
+    int64_t room = own->count;
+    const bool fits = !takes || memory_reserve((void **)&own->point, &room, own->count + more,
+                                               own->count, sizeof *own->point);
+    struct error *error = ranks_agree(ranks, fits ? NULL : out_of_memory_for("a picture"));
+    if (!error && (gives || takes))
+        pass(other, takes, takes ? own->point + own->count : own->point, more, sizeof *own->point,
+             request);
+    if (!error && takes)
+        own->count = thin(own->point, own->count + more);
+    else if (gives)
+        own->count = 0;
+    free(request);
+    return error;
+}
+
+/* Collective: rank 0 gets the points of all. They come together in pairs and are thinned each time,
+ * so that no rank ever has more than those of two plots. */
+static struct error *join_all(const struct ranks *ranks, struct cloud *own)
+{
+    struct error *error = NULL;
+    for (int step = 1; step < ranks->size && !error; step *= 2)
+        error = join_pairs(ranks, step, own);
+    return error;
+}
+
 struct error *scatter_gather(const struct ranks *ranks, struct scatter *scatter)
 {
     struct range x = range_empty(), y = range_empty();
@@ -67,24 +117,22 @@ struct error *scatter_gather(const struct ranks *ranks, struct scatter *scatter)
         }
     x = range_of_all(ranks, x);
     y = range_of_all(ranks, y);
-    int64_t count;
-    struct drawn_point *all = NULL, *own = take_points(scatter, x, y, &count);
-    struct error *error = ranks_agree(ranks, own ? NULL : out_of_memory_for("a picture"));
+    struct cloud own;
+    own.point = take_points(scatter, x, y, &own.count);
+    struct error *error = ranks_agree(ranks, own.point ? NULL : out_of_memory_for("a picture"));
     if (!error)
-        error = ranks_gather(ranks, 0, own, count, sizeof *own, (void **)&all, &count);
-    free(own);
+        error = join_all(ranks, &own);
     scatter_free(scatter);
     if (!error && ranks->rank == 0) {
-        count = thin(all, count);
-        if (scatter_allocate(scatter, count))
-            for (int64_t k = 0; k < count; ++k) {
-                scatter->x[k] = all[k].x;
-                scatter->y[k] = all[k].y;
+        if (scatter_allocate(scatter, own.count))
+            for (int64_t k = 0; k < own.count; ++k) {
+                scatter->x[k] = own.point[k].x;
+                scatter->y[k] = own.point[k].y;
             }
         else
             error = out_of_memory_for("a picture");
     }
-    free(all);
+    free(own.point);
     return ranks_agree(ranks, error);
 }
 
