@@ -182,8 +182,8 @@ static double pressure_of(const struct gas *gas, int32_t i, double fraction, dou
 }
 
 /* Over DT products in cell I become air that has their volume, energy and velocity, and the heat of
- * mixing, which is returned, J/m^3. What is next to nothing becomes air at once. Where products
- * have too little energy for a heat below zero they wait until they have more. */
+ * mixing, which is returned, J/m^3. What is next to nothing becomes air at once. Air is warmer than
+ * cold products: where the heat is not enough for it they wait until they have more energy. */
 static double mix(struct gas *gas, int32_t i, double dt)
 {
     static const double little = 1e-5, least = 0.5;
@@ -192,7 +192,7 @@ static double mix(struct gas *gas, int32_t i, double dt)
                  part = *second < little * density ? 1.0
                                                    : 1.0 - exponential(-gas->afterburn.mixing * dt),
                  heat = part * *second * gas->mixing_heat, left = 1.0 - part;
-    if (gas->mixing_heat < 0.0 && left > 0.0) {
+    if (left > 0.0) {
         double energy = gas->u[GAS_ENERGY][i];
         for (int axis = 0; axis < 3; axis++)
             energy -= 0.5 * square(gas->u[GAS_MOMENTUM + axis][i]) / density;
