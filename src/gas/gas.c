@@ -281,11 +281,14 @@ struct error *gas_plan(struct gas *gas, struct simulation *simulation)
 static struct error *gas_start(void *solver, struct simulation *simulation)
 {
     struct gas *gas = solver;
+    const bool unburnt = gas->unburnt;
     gas->cells->threads = simulation->threads;
     if (gas->cells->levels > 1 || simulation->ranks->size > 1)
         memory_keep_freed();
     TRY(gas_plan(gas, simulation));
     TRY(gas_burn(gas, simulation, simulation->time));
+    if (simulation->step > 0) /* a coupling may have burnt all since the last step */
+        gas->unburnt = unburnt;
     return gas_derive(gas, simulation, NULL);
 }
 
@@ -408,6 +411,10 @@ static struct error *gas_advance(void *solver, struct simulation *simulation, do
 static struct error *gas_state(void *solver, struct visitor *visitor)
 {
     struct gas *gas = solver;
+    int64_t unburnt = gas->unburnt;
+    if (gas->layout.lit)
+        TRY(visitor->visit(visitor, "burn/unburnt", NUMBER_INT64, &unburnt, 1, 1));
+    gas->unburnt = unburnt != 0;
     if (gas->layout.afterburns && gas->afterburn.air > 0.0)
         TRY(visitor->visit(visitor, "afterburn/most", NUMBER_DOUBLE, &gas->most_afterburnt, 1, 1));
     if (gas->layout.afterburns && gas->afterburn.mixing > 0.0)

@@ -62,6 +62,26 @@ compare() {
 compare everything-coupled 000002
 compare everything-alternating 000001 000005 000010
 
+# Stopped just before, at and after each handover, and resumed.
+every=(--threads 1 --set output.history=1ns --set checks=)
+rm -rf whole
+"$BOLIDE" run "$case" "${every[@]}" --output whole >whole.log 2>&1 ||
+    fail "$name with its history: $(cat whole.log)"
+for event in propagation interaction; do
+    at=$(sed -n "s/^event,\"$event\",\"time\",\([^,]*\),.*/\1/p" whole/summary.csv)
+    step=$(awk -F, -v at="$at" 'NR > 1 && $1 >= at { print $2; exit }' whole/history.csv)
+    for most in $((step - 1)) "$step" $((step + 1)); do
+        rm -rf part
+        for steps in "$most" 100000; do
+            "$BOLIDE" run "$case" "${every[@]}" --set "run.max_steps=$steps" --output part \
+                $([ "$steps" = "$most" ] || echo --resume) >part.log 2>&1 ||
+                fail "$name to step $steps: $(cat part.log)"
+        done
+        [ "$(hash_of whole)" = "$(hash_of part)" ] && cmp whole/history.csv part/history.csv ||
+            fail "$name: stopped at step $most, $event, and resumed it differs"
+    done
+done
+
 # With markers between the gases, on one rank.
 settings=(--set solver.afdmp.gas.method=lax-wendroff)
 BOLIDE_MPIRUN= compare everything-alternating 000001 000005
