@@ -1,12 +1,7 @@
 #!/bin/bash
 # bolide calibrate: keys come out of synthetic measurements; what targets cannot tell apart is said.
-set -u
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 rm -rf results few one bound none slow shifted wrong exact
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
 cat >plate.yaml <<'YAML'
 format: 1
 dimension: 1

@@ -1,13 +1,7 @@
 #!/bin/bash
 # A run that is resumed with other loads, boundaries, failure constants and without a body: only with --change;
 # nothing is lost from the balance; what is removed later has the bits of a run that removed it then.
-set -u
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
-. "$BOLIDE_SOURCE_DIR/tests/robustness/same.sh"
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 cat >push.yaml <<'END'
 format: 1
 dimension: 2

@@ -1,11 +1,6 @@
 #!/bin/bash
 # bolide compare: several runs and a measurement in one page, their differences, and plots that a browser draws.
-set -u
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 cat >plate.yaml <<'END'
 format: 1
 dimension: 1

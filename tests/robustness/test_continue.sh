@@ -1,13 +1,7 @@
 #!/bin/bash
 # A run that is resumed with another case: a later end and other outputs give the bits of the run that had
 # them from the start, with each solver, threads and ranks; keys that may not change are refused by name.
-set -u
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
-. "$BOLIDE_SOURCE_DIR/tests/robustness/same.sh"
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 
 # extends NAME CASE EARLIER LATER OPTIONS...: a run to EARLIER that is extended to LATER, by other threads.
 extends() {

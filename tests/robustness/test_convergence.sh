@@ -1,13 +1,8 @@
 #!/bin/bash
 # bolide verify --convergence: tables, page and exit status of studies that pass, fail, deviate as known, cannot be
 # made, or are stopped; and what lies in the folder.
-set -u
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 gas=$BOLIDE_SOURCE_DIR/examples/riemann/gas/case.yaml
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
 # study STATUS LOG OPTIONS...: the gas, coarse.
 study() {
     local wanted=$1 log=$2

@@ -1,13 +1,7 @@
 #!/bin/bash
 # Gas and material points side by side, and one after another: the same bits on any number of
 # threads and ranks, and after a kill.
-set -u
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
-. "$BOLIDE_SOURCE_DIR/tests/robustness/same.sh"
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 
 # Kills a run of $case when snapshot $1 is there, and resumes it on another number of threads; keeps
 # what the killed one has left in the folder `left`.

@@ -1,12 +1,7 @@
 #!/bin/bash
 # What a run with gas beside material points warns of or refuses: solids near the gas, cells that are
 # too coarse, a blast at the start where material points begin at rest.
-set -u
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 rm -rf near far into thin early late
 
 # A piston that comes to the gas at the open face of the region: a warning, in the verdict too; then

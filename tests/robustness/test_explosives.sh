@@ -1,13 +1,7 @@
 #!/bin/bash
 # Explosives that burn: the same bits on any number of threads and after a kill, of particles with
 # both solvers and of cells. test_ranks.sh compares ranks.
-set -u
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
-. "$BOLIDE_SOURCE_DIR/tests/robustness/same.sh"
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 
 for name in everything-explosives everything-explosives-mpm everything-gas-two; do
     case=$BOLIDE_SOURCE_DIR/tests/data/${name%-mpm}.yaml

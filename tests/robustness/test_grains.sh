@@ -1,11 +1,6 @@
 #!/bin/bash
 # Particles across the grains of a bed: what `bolide check` prints, and for which beds it warns.
-set -u
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 cat >bed.yaml <<'YAML'
 format: 1
 dimension: 2

@@ -1,12 +1,6 @@
 #!/bin/bash
 # Input made to hang the program, to fill its memory, to take over a terminal or to show files that are not the user's.
-set -u
-status=0
-
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 
 # limited SECONDS COMMAND...: kills what takes longer on the processor or waits for ever, but not
 # what is slow because the machine is busy.

@@ -1,15 +1,9 @@
 #!/bin/bash
 # What is installed works where it is put: the program with its materials and examples, the library with its
 # headers, the Debian package.
-set -u
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 unset BOLIDE_SHARE
 build=$(dirname "$BOLIDE")
-status=0
-
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
 
 # verifies PREFIX: the program there runs an example that is there.
 verifies() {

@@ -1,6 +1,6 @@
 #!/bin/bash
 # A run that is killed, asked to stop, or out of disk: it resumes to the same bits, and no file is half there.
-set -u
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 case=$BOLIDE_SOURCE_DIR/examples/impact/steel-cube-0/case.yaml
 settings=(--set "run.until=20us" --set "output.every=5us" --set "output.checkpoint=0.1s"
     --set "output.pictures=[]" --set "probes={cube: {body: cube}, front: {front: {field: pressure, half: yes}, axis: z},
@@ -8,13 +8,8 @@ settings=(--set "run.until=20us" --set "output.every=5us" --set "output.checkpoi
     --set "profiles={along: {fields: pressure, along: z, by: body}}"
     --set "checks={energy: {conserved: energy, within: 1e-12},
         slowed: {recorded: {probe: cube, column: velocity.z, take: range}, at_least: 10 m/s}}")
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
 # What two runs recorded, to the last bit.
-same() {
+same_records() {
     cmp "$1/history.csv" "$2/history.csv" && cmp "$1/checks.csv" "$2/checks.csv" &&
         diff -rq "$1/probes" "$2/probes" && diff -rq "$1/profiles" "$2/profiles"
 }
@@ -30,7 +25,7 @@ kill -KILL $runner 2>/dev/null
 wait $runner 2>/dev/null
 "$BOLIDE" run "$case" "${settings[@]}" --output killed --resume >killed.log 2>&1 ||
     fail "resuming after a kill: $(cat killed.log)"
-same whole killed || fail "a killed and resumed run differs"
+same_records whole killed || fail "a killed and resumed run differs"
 
 # Asked to stop: it writes a checkpoint, says so, and ends with 128 + the signal.
 "$BOLIDE" run "$case" "${settings[@]}" --set "output.checkpoint=0s" --output stopped >stopped.log 2>&1 &
@@ -41,7 +36,7 @@ wait $runner
 [ $? = 143 ] || fail "a stopped run must end with 143: $(cat stopped.log)"
 "$BOLIDE" run "$case" "${settings[@]}" --set "output.checkpoint=0s" --output stopped --resume \
     >stopped.log 2>&1 || fail "resuming after a stop: $(cat stopped.log)"
-same whole stopped || fail "a stopped and resumed run differs"
+same_records whole stopped || fail "a stopped and resumed run differs"
 
 # Every signal that would end the program stops a run with a checkpoint. Two at once are one request.
 cat >long.yaml <<'END'

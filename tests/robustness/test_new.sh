@@ -1,12 +1,6 @@
 #!/bin/bash
 # bolide new: every template becomes a case that is right, and nothing is overwritten.
-set -u
-status=0
-
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 
 rm -rf ./*
 for template in "$BOLIDE_SOURCE_DIR"/templates/*.yaml; do

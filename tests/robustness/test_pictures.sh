@@ -1,12 +1,7 @@
 #!/bin/bash
 # Pictures: the same bytes on threads and ranks and from snapshots; equal frames; a shield with no key of
 # pictures shows hole, cloud and wall in the first picture of its report.
-set -u
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 cat >shield.yaml <<'END'
 format: 1
 title: A shield

@@ -1,18 +1,12 @@
 #!/bin/bash
 # Cases on several ranks: the same bits as on one, whatever the method, when space is divided anew, and after a kill
 # that is resumed on another number of ranks. One message when a rank fails. $BOLIDE_MPIRUN starts several processes.
-set -u
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 on() {
     local ranks=$1
     shift
     OMP_NUM_THREADS=1 $BOLIDE_MPIRUN -n "$ranks" "$BOLIDE" "$@" </dev/null
 }
-. "$BOLIDE_SOURCE_DIR/tests/robustness/same.sh"
 
 # Every kind of case, a few steps each: what their checks say of so few does not count.
 names=$(grep -v '^#' "$BOLIDE_SOURCE_DIR/tests/data/kinds.txt")

@@ -1,13 +1,7 @@
 #!/bin/bash
 # Cells of several levels on several ranks: the same bits as on one, with any number of threads, while levels change and
 # blocks go to other ranks. $BOLIDE_MPIRUN starts several processes.
-set -u
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
-. "$BOLIDE_SOURCE_DIR/tests/robustness/same.sh"
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 
 # One gas that flows in beside an axis, around a ball.
 cat >inflow.yaml <<'END'

@@ -1,12 +1,7 @@
 #!/bin/bash
 # bolide verify --record, --compare-record, scripts/record and scripts/figures: what is stored, how forms, settings
 # and sweeps are merged, what cannot be recorded, what differs from a record, and pages that differ from records.
-set -u
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 says() { grep -qF -- "$2" "$1" || fail "$1 does not say \"$2\": $(head -50 "$1")"; }
 verify() { "$BOLIDE" verify --threads 1 "$@" >log 2>&1; }
 rows() { grep -c "^$1" tube/results.csv; }

@@ -1,13 +1,8 @@
 #!/bin/bash
 # report.html: whole, needing nothing but itself, and right in a browser; for runs that finish, stop, fail or
 # are killed.
-set -u
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 cases=$BOLIDE_SOURCE_DIR/examples
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
 says() { grep -qF "$2" "$1/report.html" || fail "$1/report.html does not say \"$2\""; }
 
 rm -rf whole known profile many stopped failed killed copied

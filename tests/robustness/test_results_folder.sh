@@ -1,12 +1,7 @@
 #!/bin/bash
 # The folder of results: two runs at once, other people's files, odd names; and what surrounds a run:
 # closed streams, far too many threads.
-set -u
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 # refused WORDS COMMAND...: the command ends with 2 and says WORDS.
 refused() {
     local words=$1 said got

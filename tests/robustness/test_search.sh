@@ -1,11 +1,6 @@
 #!/bin/bash
 # bolide search: the limit that it finds, its table, and what it says of keys, values and checks that are wrong.
-set -u
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 cat >gas.yaml <<'YAML'
 format: 1
 dimension: 1

@@ -1,12 +1,7 @@
 #!/bin/bash
 # Threads that wait for each other sleep soon, unless the user wants it otherwise, and the number of threads that a run
 # uses never changes its results.
-set -u
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 # What gcc's OpenMP, the only one that tells, has understood: the program's own copy speaks last.
 spins() { OMP_DISPLAY_ENV=verbose env -u OMP_WAIT_POLICY "$@" "$BOLIDE" --version 2>&1 | sed -n "s/.*GOMP_SPINCOUNT = '\(.*\)'/\1/p" | tail -n 1; }
 if [ -n "$(spins)" ]; then
@@ -29,7 +24,6 @@ for threads in 1 2 fixed; do
         --threads ${threads/fixed/2} --output $threads --overwrite >$threads.log 2>&1
     [ $? -le 1 ] || fail "$threads: $(cat $threads.log)"
 done
-. "$BOLIDE_SOURCE_DIR/tests/robustness/same.sh"
 [ -n "$(hash_of 1)" ] || fail "no hash: $(cat 1.log)"
 for threads in 2 fixed; do
     [ "$(hash_of $threads)" = "$(hash_of 1)" ] || fail "$threads: another hash"

@@ -1,13 +1,7 @@
 #!/bin/bash
 # A case that begins with the bodies of another run: with the same bodies it has the bits of a run that was
 # never interrupted, by any threads and ranks; bodies are left out and added; the rest is refused by name.
-set -u
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
-. "$BOLIDE_SOURCE_DIR/tests/robustness/same.sh"
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 cat >one.yaml <<'YAML'
 format: 1
 dimension: 2

@@ -1,12 +1,7 @@
 #!/bin/bash
 # The viewer, whose every control a headless browser operates without a script error or a request; films, which have
 # as many frames as there are snapshots.
-set -u
-status=0
-fail() {
-    echo "FAILED: $*"
-    status=1
-}
+. "$BOLIDE_SOURCE_DIR/tests/robustness/common.sh"
 cat >shield.yaml <<'END'
 format: 1
 dimension: 3

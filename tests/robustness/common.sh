@@ -1,4 +1,12 @@
-# Whether two runs wrote the same; for the tests that run the program.
+# What the tests that run the program share: a failure is told and ends the test with 1, and whether
+# two runs wrote the same.
+set -u
+status=0
+fail() {
+    echo "FAILED: $*"
+    status=1
+}
+
 hash_of() { grep -o '"hash","[0-9a-f]*"' "$1/summary.csv"; }
 # To the last bit, but for what tells of the running itself; further arguments: what diff leaves out.
 same() {
