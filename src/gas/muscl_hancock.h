@@ -245,12 +245,19 @@ BOLIDE_INLINE void row_mark_lost(const struct gas_row *row, const struct row_sta
 }
 
 /* Whether the numbers TO, which a sweep gives cells, leave one of them with less than half of what
- * GAS_LEAST keeps at its faces. */
+ * GAS_LEAST keeps at its faces. Of the next to nothing that an explosive has before it burns the
+ * products beside it may take all, see row_unburn: no shorter sweep would leave it more. */
 BOLIDE_INLINE bool row_is_spent(const struct gas_row *row, const struct row_states *cell,
                                 const double *fall, const struct gas_numbers *to)
 {
     const double most = (1.0 - 0.5 * GAS_LEAST) / (1.0 - GAS_LEAST);
+    double bound[ROW_ROOM];
     uint64_t spent = 0;
+    FOR_ROW (k, 0, row->cells - 1)
+        bound[k] = most * fall[k];
+    if (row->closure.lit)
+        FOR_ROW (k, 0, row->cells - 1)
+            bound[k] = row->burnt[k] < 1.0 ? (double)INFINITY : bound[k];
     FOR_ROW (k, 0, row->cells - 1) {
         const double density = to->of[GAS_DENSITY][k],
                      kinetic = 0.5 * (square(to->of[GAS_MOMENTUM][k]) +
@@ -258,7 +265,7 @@ BOLIDE_INLINE bool row_is_spent(const struct gas_row *row, const struct row_stat
                                       square(to->of[GAS_MOMENTUM + 2][k]));
         const bool stays = (density > 0.5 * GAS_LEAST * row->u.of[GAS_DENSITY][k]) &
                            (density * to->of[GAS_ENERGY][k] - kinetic >
-                            square(density) * (cell->energy[k] - most * fall[k]));
+                            square(density) * (cell->energy[k] - bound[k]));
         spent |= !stays;
     }
     return spent != 0;

@@ -28,4 +28,21 @@ for name in everything-explosives everything-explosives-mpm everything-gas-two; 
     grep -q "^resumed at step" resumed.log || fail "$name: nothing was resumed: $(cat resumed.log)"
     same_but_for_order one killed || fail "$name: a killed and resumed run differs"
 done
+# While a detonation runs through its charge no sweep of the gas is repeated: of an explosive that
+# has yet to burn next to nothing is left to lose.
+cat >inside.yaml <<'END'
+format: 1
+dimension: 3
+resolution: 20 mm
+solver: gas
+materials: {air: {library: air}, tnt: {library: tnt}}
+bodies:
+  air: {material: air, density: 1.225 kg/m^3, pressure: 1 bar, box: {from: [0 m, 0 m, 0 m], to: [0.64 m, 0.64 m, 0.64 m]}}
+  charge: {material: tnt, replaces: air, ball: {center: [0.2 m, 0.32 m, 0.3 m], radius: 0.16 m}}
+detonations: {point: {at: [0.2 m, 0.32 m, 0.3 m]}}
+run: {until: 19 us}
+output: {pictures: []}
+END
+"$BOLIDE" run inside.yaml --output inside --overwrite >inside.log 2>&1 || fail "$(cat inside.log)"
+! grep "repetition of sweeps" inside.log || fail "sweeps inside a charge are repeated"
 exit $status
