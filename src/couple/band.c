@@ -98,6 +98,31 @@ static struct error *find_solid(const struct looking *looking)
     return error;
 }
 
+/* Where the cells of the band are that this rank has. */
+static void find_own(struct cfdmp *cfdmp)
+{
+    const struct cell_blocks *cells = gas_view(cfdmp->gas).cells;
+    if (cfdmp->own_order == cells->order)
+        return;
+    cfdmp->own_order = cells->order;
+    for (int axis = 0; axis < 3; axis++) {
+        cfdmp->own_from[axis] = cfdmp->count[axis];
+        cfdmp->own_to[axis] = 0;
+    }
+    for (int64_t n = 0; n < cfdmp->band_cells; n++) {
+        int32_t block;
+        if (part_cell(cells, cfdmp->band[n], &block) < 0)
+            continue;
+        for (int axis = 0; axis < 3; axis++) {
+            const int64_t at = cfdmp->band[n][axis] - cfdmp->cut.low[axis];
+            if (at < cfdmp->own_from[axis])
+                cfdmp->own_from[axis] = at;
+            if (at >= cfdmp->own_to[axis])
+                cfdmp->own_to[axis] = at + 1;
+        }
+    }
+}
+
 /* The cells of the band take what SUMS have. */
 static void put_band(struct cfdmp *cfdmp, const struct smear_sums *sums, int threads)
 {
@@ -126,6 +151,9 @@ struct error *cfdmp_fill_band(struct cfdmp *cfdmp)
     struct looking looking = {cfdmp, {view.material[0], view.material[1]}, false};
     memcpy(smear.low, cfdmp->cut.low, sizeof smear.low);
     memcpy(smear.count, cfdmp->count, sizeof smear.count);
+    find_own(cfdmp);
+    memcpy(smear.from, cfdmp->own_from, sizeof smear.from);
+    memcpy(smear.to, cfdmp->own_to, sizeof smear.to);
     TRY(crowd_gather(&cfdmp->crowd, cfdmp->mpm, &view, simulation, counts, &looking));
     struct error *error = looking.solid ? find_solid(&looking) : NULL;
     if (!error && !memory_reserve((void **)&cfdmp->sums, &cfdmp->sums_capacity,
@@ -135,7 +163,8 @@ struct error *cfdmp_fill_band(struct cfdmp *cfdmp)
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (int64_t n = 0; n < cfdmp->band_cells; n++)
         cfdmp->sums[n] = (struct smear_sums){.kinetic = 0.0};
-    smear_crowd(&smear, &cfdmp->crowd, threads, cfdmp->sums);
+    if (smear.from[0] < smear.to[0]) /* this rank has some */
+        smear_crowd(&smear, &cfdmp->crowd, threads, cfdmp->sums);
     put_band(cfdmp, cfdmp->sums, threads);
     return NULL;
 }

@@ -53,15 +53,17 @@ struct cfdmp {
     struct gas_cut cut; /* the region */
     struct mpm_outside outside;
     struct side side[3][2];
-    int64_t count[3];        /* cells of the region */
-    int64_t band_cells;      /* so many cells get what particles have */
-    int64_t (*band)[3];      /* their places */
-    int32_t *band_of;        /* of each cell of the region, its number among these; -1: none */
-    struct crowd crowd;      /* what gives to them, and */
-    struct smear_sums *sums; /* how much */
-    struct picked leaving;   /* particles */
-    bool *changed;           /* of each block of cells */
-    struct mpm_push *push;   /* what this rank's nodes have got in this step */
+    int64_t count[3];   /* cells of the region */
+    int64_t band_cells; /* so many cells get what particles have */
+    int64_t (*band)[3]; /* their places */
+    int32_t *band_of;   /* of each cell of the region, its number among these; -1: none */
+    int64_t own_from[3], own_to[3]; /* cells of the region between which this rank's of them lie, */
+    uint64_t own_order;             /* for the order of blocks of gas with this number */
+    struct crowd crowd;             /* what gives to them, and */
+    struct smear_sums *sums;        /* how much */
+    struct picked leaving;          /* particles */
+    bool *changed;                  /* of each block of cells */
+    struct mpm_push *push;          /* what this rank's nodes have got in this step */
     int64_t changed_capacity, sums_capacity, pushes, push_capacity;
     bool pushes_lost; /* for want of memory */
     double gauged[4]; /* what the ambient pressure pushed in this step, which forces leave out */

@@ -122,6 +122,7 @@ struct error *afdmp_map_to_gas(struct afdmp *afdmp, struct simulation *simulatio
     for (int axis = 0; axis < 3; axis++) {
         smear.low[axis] = afdmp->nest_cut.low[axis];
         smear.count[axis] = afdmp->nest_cut.high[axis] - afdmp->nest_cut.low[axis];
+        smear.to[axis] = smear.count[axis];
         cells *= (size_t)smear.count[axis];
     }
     struct crowd crowd = {.count = 0};

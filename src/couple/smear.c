@@ -86,12 +86,12 @@ static void crowd_fetch(const struct crowd *crowd, int64_t k)
         __builtin_prefetch(&crowd->particle[crowd->order[k].index]);
 }
 
-/* The longest axis of the box. */
+/* The longest axis of what is wanted of the box. */
 static int longest(const struct smear *smear)
 {
     int axis = 0;
     for (int k = 1; k < smear->dimension; k++)
-        if (smear->count[k] > smear->count[axis])
+        if (smear->to[k] - smear->from[k] > smear->to[axis] - smear->from[axis])
             axis = k;
     return axis;
 }
@@ -101,7 +101,7 @@ void smear_crowd(const struct smear *smear, const struct crowd *crowd, int threa
 {
     enum { AHEAD = 8 };
     const int axis = longest(smear);
-    const int64_t last = smear->count[axis] - 1;
+    const int64_t last = smear->count[axis] - 1, wanted = smear->to[axis] - smear->from[axis];
     /* Each part has cells of its own, and sums in one order, whatever the number of parts. */
 #pragma omp parallel num_threads(threads)
     {
@@ -116,12 +116,12 @@ void smear_crowd(const struct smear *smear, const struct crowd *crowd, int threa
         for (int part = 0; part < threads; part++) {
             struct smear_range range[3];
             for (int k = 0; k < 3; k++)
-                range[k] = (struct smear_range){k, 0, smear->count[k]};
-            range[axis].from = (last + 1) * part / threads;
-            range[axis].to = (last + 1) * (part + 1) / threads;
-            /* whose border gets what goes beyond */
-            const int64_t from = part == 0 ? -SPAN : range[axis].from - REACH,
-                          to = part == threads - 1 ? last + SPAN + 1 : range[axis].to + REACH;
+                range[k] = (struct smear_range){k, smear->from[k], smear->to[k]};
+            range[axis].from = smear->from[axis] + wanted * part / threads;
+            range[axis].to = smear->from[axis] + wanted * (part + 1) / threads;
+            /* the border of the box gets what goes beyond */
+            const int64_t from = range[axis].from == 0 ? -SPAN : range[axis].from - REACH,
+                          to = range[axis].to > last ? last + SPAN + 1 : range[axis].to + REACH;
             for (int64_t k = 0; k < crowd->count; k++) {
                 crowd_fetch(crowd, k + AHEAD);
                 if (crowd->place[k] >= from && crowd->place[k] < to)

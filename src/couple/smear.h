@@ -25,6 +25,7 @@ struct smear {
     double edge;
     int dimension;
     int64_t low[3], count[3]; /* the box */
+    int64_t from[3], to[3];   /* cells of it whose sums are wanted, from its lowest on */
     const int32_t *number;    /* of each cell of the box, the first axis fastest, that of its sums;
                                * -1: it has none. NULL: all have, in this order */
     bool keeps; /* what would go beyond the box goes to its border; else it is not summed */
