@@ -33,7 +33,7 @@ kill_and_resume() {
     "$BOLIDE" run "$@" --output whole >whole.log 2>&1 || fail "the whole run: $(cat whole.log)"
     OMP_NUM_THREADS=1 $BOLIDE_MPIRUN -n 2 "$BOLIDE" run "$@" --output killed >killed.log 2>&1 </dev/null &
     local runner=$!
-    while [ ! -e "killed/$until" ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+    while [ ! -e "killed/$until" -o ! -e killed/checkpoint.h5 ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
     local rank
     rank=$(grep -l "^PPid:[[:space:]]*$runner\$" /proc/[0-9]*/status 2>/dev/null | tail -n 1)
     rank=${rank//[^0-9]/}
