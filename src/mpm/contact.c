@@ -39,6 +39,24 @@ static void find_slopes(struct mpm *mpm, const struct simulation *simulation, st
     }
 }
 
+/* Masses per radian grow with the radius, and so has their gradient a part that belongs to no
+ * surface, which is taken out at the nodes of a block. On the axis and on a wall about it nothing
+ * points along the radius. */
+static void straighten(const struct mpm *mpm, struct layer *layer, int32_t block)
+{
+    int64_t corner[3], at[3];
+    grid_corner(&layer->grid, block, corner);
+    for (int k = 0; k < BLOCK_CELLS; k++) {
+        mpm_node_index(layer->grid.dimension, corner, k, at);
+        const bool inside = at[0] > 0 && !(mpm->has_plane[0][1] && at[0] >= mpm->plane[0][1]);
+        double *slope = grid_node(&layer->normal, block, k);
+        if (inside)
+            slope[0] += grid_node(&layer->main, block, k)[NODE_MASS] / (mpm->edge * (double)at[0]);
+        else
+            slope[0] = 0.0;
+    }
+}
+
 /* Their sums at nodes. */
 static void find_normals(const struct mpm *mpm, const struct simulation *simulation,
                          struct layer *layer)
@@ -48,6 +66,10 @@ static void find_normals(const struct mpm *mpm, const struct simulation *simulat
         if (layer->meets[n])
             grid_reduce(&layer->grid, &layer->normal, n);
     mpm_fold_vectors(mpm, layer, &layer->normal);
+    const bool round = simulation->problem->geometry == GEOMETRY_AXISYMMETRIC;
+    for (int32_t n = 0; n < layer->grid.blocks && round; n++)
+        if (layer->meets[n])
+            straighten(mpm, layer, n);
 }
 
 /* Ratio of mass to mass gradient, in cells, at a node of a half-space filled with particles of a
