@@ -58,6 +58,14 @@ bool maps_find(const struct map *map, const struct population *population,
     return fields->value && fields->memory;
 }
 
+bool maps_has(const struct map *map, const struct population *population)
+{
+    for (int k = 0; k < population->fields; k++)
+        if (!strcmp(population->field[k].declaration.name, map->memory))
+            return true;
+    return false;
+}
+
 static void find_unit(struct map *map, const struct column *column)
 {
     if (map->kind == MAP_ARRIVAL)
@@ -152,9 +160,8 @@ static struct error *check_map(const struct simulation *simulation, const struct
     for (int p = 0; p < simulation->populations; p++) {
         const struct population population = simulation_population_at(simulation, p);
         *column = quantity_of(map, &population, &component);
-        for (int k = 0; *column && k < population.fields; k++)
-            if (!strcmp(population.field[k].declaration.name, map->memory))
-                return NULL;
+        if (*column && maps_has(map, &population))
+            return NULL;
     }
     TRY(column_choose(&first, map->field, NULL, 0, column, &component));
     return error_new(ERROR_INPUT, "there is a field \"%s\" already: give the map another name",

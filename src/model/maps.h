@@ -18,6 +18,9 @@ int maps_declare(struct simulation *simulation, const struct population *populat
 /* Looks at all members at the end of a step of DT; with DT 0 at the start or after loading. */
 void maps_update(const struct simulation *simulation, double dt);
 
+/* Whether POPULATION keeps MAP, also before it has members. */
+bool maps_has(const struct map *map, const struct population *population);
+
 /* The visible field and the memory of MAP in POPULATION; false where it has none. */
 struct map_fields {
     double *value, *memory;

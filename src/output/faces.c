@@ -45,6 +45,15 @@ static bool find_source(const struct simulation *simulation, struct source *sour
     return false;
 }
 
+/* Whether cells keep a map; `bolide check` may not have filled them. */
+static bool is_mapped(const struct simulation *simulation, const struct population *cells)
+{
+    for (int k = 0; k < simulation->maps; k++)
+        if (maps_has(&simulation->map[k], cells))
+            return true;
+    return false;
+}
+
 const char *faces_missing(const struct simulation *simulation)
 {
     const struct simulation_case *input = simulation->problem->input;
@@ -56,7 +65,7 @@ const char *faces_missing(const struct simulation *simulation)
         return "no boundary of this case is a `rigid-body`, whose faces it would list";
     if (!find_source(simulation, &source))
         return "this solver has no cells: faces are those of cells of gas";
-    if (source.maps == 0)
+    if (!is_mapped(simulation, &source.population))
         return "there is nothing to list: give the solver's `ambient`, or `maps`";
     return NULL;
 }

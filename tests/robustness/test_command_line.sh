@@ -85,6 +85,7 @@ expect 2 "No such file" "$BOLIDE" run missing.yaml
 expect 2 "nothing to resume" "$BOLIDE" run "$cases/riemann/gas/case.yaml" --output never --resume
 
 expect 0 "200 particles" "$BOLIDE" check "$cases/riemann/gas/case.yaml"
+expect 0 "not filled" "$BOLIDE" check "$cases/blast/box/case.yaml" # faces of cells that are not there
 expect 2 "did you mean \"gas-riemann\"" "$BOLIDE" exact gas-rieman
 expect 2 '--set "left.density=... kg/m^3"' "$BOLIDE" exact gas-riemann
 expect 2 '"right" is missing' "$BOLIDE" exact gas-riemann \
