@@ -153,7 +153,7 @@ static struct error *merge_entry(struct node *base, int index, struct node *entr
     /* the index holds the old key: the new one takes its place there */
     free(entry->key);
     entry->key = old->key;
-    entry->removes = old->kind == NODE_MAP && node_is_empty(entry);
+    entry->removes = node_is_empty(entry) && !node_is_empty(old);
     old->key = NULL;
     node_free(old);
     base->child[index] = entry;

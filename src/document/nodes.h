@@ -22,7 +22,7 @@ struct node {
     bool plain;   /* SCALAR without quotes */
     bool implied; /* MAP that a setting's path made on its way */
     bool broken;  /* MAP whose mistake has been told: known by its name, not read */
-    bool removes; /* SCALAR without text, in the place of a MAP that it takes out */
+    bool removes; /* SCALAR without text, in the place of a value that it takes out */
     bool foreign; /* from a file of the library, where the names of `let` mean nothing */
     char *text;   /* SCALAR */
     char *key;    /* of an entry of a map */

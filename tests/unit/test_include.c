@@ -107,6 +107,21 @@ static void later_files_lie_over_earlier_ones(void **state)
     case_free(input);
 }
 
+static void a_key_without_a_value_removes_what_is_included(void **state)
+{
+    (void)state;
+    write_file("case.yaml", "include: parts/common.yaml\nlet: {speed: 1 m/s}\ntitle:\nshort:\n");
+    struct simulation_case *input = read_good("case.yaml", true);
+    assert_true(!input->title || !input->title[0]);
+    assert_true(input->run.until == 1e-6);
+    case_free(input);
+    write_file("case.yaml", "include: parts/common.yaml\nlet: {speed: 1 m/s}\nresolution:\n");
+    struct error *error = read_with("case.yaml", false, &input);
+    assert_non_null(error);
+    assert_non_null(strstr(error_message(error, 0), "resolution"));
+    error_free(error);
+}
+
 static void short_forms_are_merged_too(void **state)
 {
     (void)state;
@@ -172,6 +187,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_case_lies_over_what_it_includes),
         cmocka_unit_test(later_files_lie_over_earlier_ones),
+        cmocka_unit_test(a_key_without_a_value_removes_what_is_included),
         cmocka_unit_test(short_forms_are_merged_too),
         cmocka_unit_test(a_file_may_be_included_twice_but_not_for_ever),
         cmocka_unit_test(a_file_is_known_by_more_than_its_name),
