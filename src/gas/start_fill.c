@@ -140,17 +140,44 @@ static double to_region(const struct filling *f)
     return cut ? sqrt(sum) : (double)INFINITY;
 }
 
+static bool has_wall(const struct simulation_case *input, int axis, int side)
+{
+    for (int b = 0; b < input->boundaries.count; b++) {
+        const struct boundary_input *boundary = case_boundary(input, b);
+        if (boundary_kind_closes(boundary->kind) && boundary->axis == axis &&
+            boundary->side == side)
+            return true;
+    }
+    return false;
+}
+
+/* A face of the domain that cuts the blast must be a wall: it would leave through any other. */
+static struct error *check_wall(const struct filling *f, int axis, int side)
+{
+    char text[200];
+    if (has_wall(f->simulation->problem->input, axis, side))
+        return NULL;
+    snprintf(text, sizeof text,
+             "the %s face of the domain along %c cuts the blast, which would leave through it: "
+             "make it `symmetry` or `reflecting`, or give `window: yes`",
+             side ? "high" : "low", "xyz"[axis]);
+    return gas_wrong_start(f->simulation, "from", text);
+}
+
 /* Whether the domain, from LOW to HIGH along the axis of rings, holds them. Where they end at a
  * face of the other case, this one must have its face there, too. */
 static struct error *check_heights(const struct filling *f, const struct blast *blast, double low,
                                    double high)
 {
+    const struct simulation_case *from = f->simulation->problem->input->start.input;
     const double near = 1e-6 * f->gas->cells->edge, face[2] = {low, high};
     char text[240];
     for (int side = 0; side < 2; side++) {
         const bool beyond = side ? face[1] > f->height[1] + near : face[0] < f->height[0] - near,
                    within = side ? face[1] < f->height[1] - near : face[0] > f->height[0] + near,
                    cut = side ? blast->last[1] == blast->count[1] : blast->from[1] == 0;
+        if (cut && !within && !beyond && has_wall(from, 1, side))
+            TRY(check_wall(f, f->axis, side));
         if (!within && !(cut && beyond))
             continue;
         snprintf(text, sizeof text,
@@ -192,6 +219,8 @@ static struct error *find_share(struct filling *f, const struct blast *blast)
                                        "the domain must begin at the axis, x = 0");
         } else
             f->share *= half_low || half_high ? 0.5 : 1.0;
+        if (!f->window && (half_low || half_high) && !(axis == 0 && f->gas->round == 1))
+            TRY(check_wall(f, axis, half_high));
         if (!f->window && ((!half_low && low > -f->reach) || (!half_high && high < f->reach))) {
             char text[200];
             snprintf(text, sizeof text,
