@@ -192,7 +192,7 @@ void gas_bind(struct gas *gas, const struct cell_blocks *cells);
 
 /* Arrays, pointers, halo and strips for the blocks as they are. Collective. */
 struct error *gas_plan(struct gas *gas, struct simulation *simulation);
-struct error *gas_plan_strips(struct gas *gas, int threads);
+struct error *gas_plan_strips(struct gas *gas, int threads); /* part of it, this rank's own */
 void gas_free_strips(struct gas *gas);
 
 /* Collective: a sweep along AXIS over DT. */
