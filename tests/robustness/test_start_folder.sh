@@ -81,6 +81,7 @@ refused 'materials.steel.eos: {grueneisen' --set materials.steel.library=steel-4
 refused 'start: that case is of the solver sph: with mpm' --set solver=mpm
 refused 'start.at: the checkpoint of that run is at t = ' --set start.at=5us
 refused 'start.at: the checkpoint of that run is at t = ' --set start.at=10.1us
+rm -rf cut
 cp -r first cut
 sed -i 's/until: .*/until: 3e-05 s/' cut/case.yaml
 refused 'start.at: the checkpoint of that run is at t = 9.' --set start.from=cut --set start.at=30us --set run.until=40us
