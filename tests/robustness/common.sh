@@ -7,6 +7,14 @@ fail() {
     status=1
 }
 
+# Waits for all FILEs that the run with the process id PID writes, or for its end: await PID FILE...
+await() {
+    local file
+    for file in "${@:2}"; do
+        while [ ! -s "$file" ] && kill -0 "$1" 2>/dev/null; do sleep 0.02; done
+    done
+}
+
 hash_of() { grep -o '"hash","[0-9a-f]*"' "$1/summary.csv"; }
 # To the last bit, but for what tells of the running itself; further arguments: what diff leaves out.
 same() {

@@ -9,7 +9,7 @@ kill_and_resume() {
     rm -rf killed left
     "$BOLIDE" run "$case" "${settings[@]}" --threads 2 --output killed >killed.log 2>&1 &
     local runner=$!
-    while [ ! -e "killed/snapshots/$1.vtkhdf" -o ! -e killed/checkpoint.h5 ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+    await $runner "killed/snapshots/$1.vtkhdf" killed/checkpoint.h5
     sleep 0.05
     kill -KILL $runner 2>/dev/null
     wait $runner 2>/dev/null

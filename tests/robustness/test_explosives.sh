@@ -19,9 +19,7 @@ for name in everything-explosives everything-explosives-mpm everything-gas-two; 
     # Killed while the explosive burns, and resumed on another number of threads.
     "$BOLIDE" run "$case" "${settings[@]}" --threads 2 --output killed >killed.log 2>&1 &
     runner=$!
-    until [ -e killed/snapshots/000002.vtkhdf -a -e killed/checkpoint.h5 ] || ! kill -0 $runner 2>/dev/null; do
-        sleep 0.02
-    done
+    await $runner killed/snapshots/000002.vtkhdf killed/checkpoint.h5
     kill -KILL $runner 2>/dev/null
     wait $runner 2>/dev/null
     [ ! -e killed/checks.csv ] || fail "$name: the killed run came to its end"

@@ -20,7 +20,7 @@ rm -rf whole killed stopped full changed gone damaged
 # Killed at once when its first checkpoint is there.
 "$BOLIDE" run "$case" "${settings[@]}" --output killed >killed.log 2>&1 &
 runner=$!
-while [ ! -e killed/checkpoint.h5 ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+await $runner killed/checkpoint.h5
 kill -KILL $runner 2>/dev/null
 wait $runner 2>/dev/null
 "$BOLIDE" run "$case" "${settings[@]}" --output killed --resume >killed.log 2>&1 ||
@@ -30,7 +30,7 @@ same_records whole killed || fail "a killed and resumed run differs"
 # Asked to stop: it writes a checkpoint, says so, and ends with 128 + the signal.
 "$BOLIDE" run "$case" "${settings[@]}" --set "output.checkpoint=0s" --output stopped >stopped.log 2>&1 &
 runner=$!
-while [ ! -s stopped/history.csv ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+await $runner stopped/history.csv
 kill -TERM $runner
 wait $runner
 [ $? = 143 ] || fail "a stopped run must end with 143: $(cat stopped.log)"
@@ -56,7 +56,7 @@ begin() {
     rm -rf "$1"
     env --default-signal "${@:2}" "$BOLIDE" run long.yaml --output "$1" >"$1.log" 2>&1 &
     runner=$!
-    while [ ! -s "$1/history.csv" ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+    await $runner "$1/history.csv"
 }
 # stopped FOLDER SIGNAL STATUS: the run was stopped by SIGNAL.
 stopped() {
@@ -80,7 +80,7 @@ stopped signal PIPE ${PIPESTATUS[0]}
 begin signal nohup
 kill -HUP $runner
 kill -USR1 $runner
-while [ ! -s signal/checkpoint.h5 ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+await $runner signal/checkpoint.h5
 sleep 0.1
 kill -0 $runner 2>/dev/null ||
     fail "SIGUSR1 or an ignored SIGHUP has ended a run: $(cat signal.log)"

@@ -4,11 +4,10 @@ reaches its end and conserves mass and energy.
 
 python3 tests/robustness/test_mixing.py [FIRST [COUNT]]: cases FIRST to FIRST + COUNT - 1 (default: 1
 to 20)"""
-import os
-import pathlib
 import random
-import subprocess
 import sys
+
+from runs import run
 
 CASE = """format: 1
 dimension: 2
@@ -76,16 +75,6 @@ def draw(number):
         detonations="".join(f"  point-{k}: {{at: {vector(at)}}}\n"
                             for k, at in enumerate(places)),
         boundaries=boundaries, until=round(edge * dice.uniform(15, 40)))
-
-
-def run(name, text):
-    """The exit status and the output of a run of the case TEXT."""
-    case = pathlib.Path(f"{name}.yaml")
-    case.write_text(text)
-    result = subprocess.run([os.environ["BOLIDE"], "run", case, "--threads", "1", "--overwrite",
-                             "--output", name], text=True, stdout=subprocess.PIPE,
-                            stderr=subprocess.STDOUT)
-    return result.returncode, result.stdout
 
 
 def main():

@@ -33,7 +33,7 @@ kill_and_resume() {
     "$BOLIDE" run "$@" --output whole >whole.log 2>&1 || fail "the whole run: $(cat whole.log)"
     OMP_NUM_THREADS=1 $BOLIDE_MPIRUN -n 2 "$BOLIDE" run "$@" --output killed >killed.log 2>&1 </dev/null &
     local runner=$!
-    while [ ! -e "killed/$until" -o ! -e killed/checkpoint.h5 ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+    await $runner "killed/$until" killed/checkpoint.h5
     local rank
     rank=$(grep -l "^PPid:[[:space:]]*$runner\$" /proc/[0-9]*/status 2>/dev/null | tail -n 1)
     rank=${rank//[^0-9]/}
@@ -102,7 +102,7 @@ grep -q "mpirun has started 2 ranks already" wrong.log || fail "--ranks among ra
 # A request to stop reaches the ranks, which leave a checkpoint, and what started them tells of the signal.
 "$BOLIDE" run "$everything" --ranks 2 --threads 1 --output stopped >stopped.log 2>&1 &
 runner=$!
-while [ ! -e stopped/checkpoint.h5 ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+await $runner stopped/checkpoint.h5
 kill -TERM $runner
 wait $runner
 [ $? = 143 ] || fail "SIGTERM to ranks: $(cat stopped.log)"

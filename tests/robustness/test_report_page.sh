@@ -45,7 +45,7 @@ for how in TERM KILL; do
     "$BOLIDE" run "$cases/impact/steel-cube-0/case.yaml" --set "output.pictures=[]" --output $folder \
         >$folder.log 2>&1 &
     runner=$!
-    while [ ! -s $folder/history.csv ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+    await $runner $folder/history.csv
     kill -$how $runner
     wait $runner 2>/dev/null
 done

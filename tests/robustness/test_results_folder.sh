@@ -31,7 +31,7 @@ cp run/plate.yaml run/case.yaml
 # One run at a time: another is refused, whatever it is to do, and the first does not notice.
 "$BOLIDE" run run/plate.yaml --set "run.until=1 ms" --output results/long >long.log 2>&1 &
 runner=$!
-while [ ! -s results/long/history.csv ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+await $runner results/long/history.csv
 for how in "" --overwrite --resume; do
     refused "results/long: is in use by another run (process $runner)" \
         "$BOLIDE" run run/plate.yaml --output results/long $how

@@ -64,7 +64,7 @@ search 2 'search needs --to B' --key speed --from 10m/s --check fast
 long=(--set run.max_steps=20000 --set run.until=1000s --threads 1)
 "$BOLIDE" search gas.yaml "${ends[@]}" --check fast --within 1m/s "${long[@]}" >stopped.log 2>&1 &
 runner=$!
-while [ ! -e results/gas-search/speed=90_m_s/run.log ] && kill -0 $runner 2>/dev/null; do sleep 0.02; done
+await $runner results/gas-search/speed=90_m_s/run.log
 kill -TERM $runner
 wait $runner
 [ $? = 143 ] || fail "SIGTERM to a search: $(cat stopped.log)"

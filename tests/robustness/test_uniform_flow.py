@@ -5,11 +5,10 @@ moves with the flow, at 1 to 300 m/s.
 python3 tests/robustness/test_uniform_flow.py [FIRST [COUNT]]: cases FIRST to FIRST + COUNT - 1
 (default: 1 to 6)"""
 import math
-import os
-import pathlib
 import random
-import subprocess
 import sys
+
+from runs import run
 
 PRESSURE = 101325.0
 # Up to which speed, which deviations of the pressure of the gas, of that of the points, and of
@@ -135,16 +134,6 @@ def draw(number):
         end=vector(edge * a for a in end), body=block,
         boundaries="boundaries:\n" + boundaries if boundaries else "", until=f"{travel * edge / speed:.6g}",
         checks=checks)
-
-
-def run(name, text):
-    """The exit status and the output of a run of the case TEXT."""
-    case = pathlib.Path(f"{name}.yaml")
-    case.write_text(text)
-    result = subprocess.run([os.environ["BOLIDE"], "run", case, "--threads", "1", "--overwrite",
-                             "--output", name], text=True, stdout=subprocess.PIPE,
-                            stderr=subprocess.STDOUT)
-    return result.returncode, result.stdout
 
 
 def alternating():
