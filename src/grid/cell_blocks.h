@@ -147,6 +147,11 @@ struct error *cell_blocks_take(struct cell_blocks *cells, struct cell_block *lis
 struct error *cell_blocks_renew(struct cell_blocks *cells, struct cell_block *list, int32_t count,
                                 struct cell_blocks *old);
 
+/* The COUNT blocks at BLOCK, which are taken over, replace those that there are; with COPIES of
+ * those of other ranks beside them. */
+struct error *cell_blocks_take_own(struct cell_blocks *cells, struct cell_block *block,
+                                   int32_t count, bool copies);
+
 /* Collective: before blocks are renewed with LIST, in the order of keys: this rank gets, in place
  * of its blocks, all that its part of LIST meets, be they its own or of other ranks. *MOVED: the
  * data of fields are elsewhere. */
