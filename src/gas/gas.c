@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "base/memory.h"
 #include "gas/gas_internal.h"
 #include "gas/markers.h"
@@ -292,36 +291,6 @@ static struct error *gas_start(void *solver, struct simulation *simulation)
     return gas_derive(gas, simulation, NULL);
 }
 
-/* Blocks go to other ranks where the case has space divided anew, or one has worked longer, by more
- * than that takes. */
-static struct error *balance(struct gas *gas, struct simulation *simulation)
-{
-    enum { STEPS = 10 }; /* between comparisons of work */
-    const int64_t every = simulation->problem->input->run.rebalance;
-    const int64_t step = simulation->step;
-    if (simulation->ranks->size < 2 || step == 0 || step % (every > 0 ? every : STEPS) != 0)
-        return NULL;
-    struct cell_blocks *cells = gas->cells;
-    const uint64_t order = cells->order;
-    const double began = clock_seconds();
-    int64_t *work = memory_allocate(((size_t)cells->blocks + 1) * sizeof *work);
-    TRY(ranks_agree(simulation->ranks, work ? NULL : out_of_memory_for("blocks of cells")));
-    for (int32_t b = 0; b < cells->blocks; b++) {
-        work[b] = gas->block[b].work;
-        gas->block[b].work = 0;
-    }
-    struct error *error = cell_blocks_distribute(cells, work, every > 0);
-    free(work);
-    TRY(error);
-    if (ranks_maximum(simulation->ranks, cells->order != order) == 0.0)
-        return NULL;
-    gas->room = 0; /* all of them may have moved */
-    TRY(gas_plan(gas, simulation));
-    TRY(ranks_agree(simulation->ranks, gas_derive(gas, simulation, NULL)));
-    simulation->partition.cost = ranks_maximum(simulation->ranks, clock_seconds() - began);
-    return NULL;
-}
-
 /* The part of the step that the first steps of two materials take: products that begin to expand
  * into air are soon faster than any wave before. */
 static double start_part(const struct gas *gas, int64_t step)
@@ -336,7 +305,7 @@ static struct error *gas_prepare(void *solver, struct simulation *simulation, st
 {
     static const char *const reasons[] = {"a wave that crosses a cell"};
     struct gas *gas = solver;
-    TRY(balance(gas, simulation));
+    TRY(gas_balance(gas, simulation));
     TRY(gas_regrid(gas, simulation));
     const double edge = gas->cells->edge;
     if (gas->unburnt)

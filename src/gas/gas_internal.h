@@ -195,6 +195,10 @@ struct error *gas_plan(struct gas *gas, struct simulation *simulation);
 struct error *gas_plan_strips(struct gas *gas, int threads); /* part of it, this rank's own */
 void gas_free_strips(struct gas *gas);
 
+/* Collective: blocks go to other ranks where the case has space divided anew, or one has worked
+ * longer, by more than that takes. */
+struct error *gas_balance(struct gas *gas, struct simulation *simulation);
+
 /* Collective: a sweep along AXIS over DT. */
 struct error *gas_sweep(struct gas *gas, struct simulation *simulation, int axis, double dt);
 
